@@ -1,0 +1,24 @@
+# Turns SPIR-V files into one C++ source with a table of name -> words. Variables: BINARIES (list), OUTPUT.
+set(arrays "")
+set(table "")
+foreach(binary ${BINARIES})
+    get_filename_component(name ${binary} NAME_WLE) # forward.frag.spv -> forward.frag
+    string(MAKE_C_IDENTIFIER "${name}" symbol)
+    file(READ ${binary} bytes HEX)
+    # SPIR-V is little-endian words; so are the machines we build on.
+    string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words "${bytes}")
+    string(APPEND arrays "constexpr std::uint32_t ${symbol}[] = {${words}};\n")
+    string(APPEND table "    {\"${name}\", ${symbol}},\n")
+endforeach()
+file(WRITE ${OUTPUT}.tmp "// Generated from shaders/ by cmake/embed_shaders.cmake.
+#include \"engine/embedded_shaders.hpp\"
+namespace {
+${arrays}
+const engine::EmbeddedShader shaders[] = {
+${table}};
+} // namespace
+namespace engine {
+std::span<const EmbeddedShader> embedded_shaders() { return shaders; }
+} // namespace engine
+")
+file(RENAME ${OUTPUT}.tmp ${OUTPUT})
