@@ -1,0 +1,78 @@
+// The scene file: what is shown, from where, in which light, on which days. docs/scene.md documents every field.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "passes/forward.hpp"
+#include "passes/placement.hpp"
+#include "wound/healing.hpp"
+
+namespace app {
+
+struct WoundScene
+{
+    std::filesystem::path photo; // empty: the default wound, generated from `kind` and `seed`
+    std::filesystem::path mask;  // empty: segmented
+    std::string kind = "abrasion";
+    std::uint32_t seed = 1;
+    passes::Place place = std::string("cheek");
+    double width_mm = 30;    // of the wound along its longer side
+    double roll_deg = 0;     // counter-clockwise as the viewer sees it
+    double depth_factor = 1; // scales the tissue's depth
+    wound::Healing healing;
+};
+
+/// A place around the face's middle: 0, 0 is in front; positive azimuth towards the viewer's right, positive elevation above.
+struct Direction
+{
+    double azimuth_deg = 0, elevation_deg = 0;
+};
+
+struct LightScene
+{
+    Direction from;
+    double distance_m = 0.25; // from the face's middle; directional lights have none
+    bool directional = false;
+    std::array<double, 3> color{1, 1, 1}; // linear
+    double intensity = 1;                 // irradiance / pi at the face's middle
+};
+
+struct CameraScene
+{
+    Direction from{18, 2};
+    double distance_m = 0; // from the face's middle; 0: such that the head fills the picture
+    double fov_deg = 20;   // vertical
+};
+
+struct Scene
+{
+    std::filesystem::path head; // empty: the default head
+    std::vector<WoundScene> wounds{WoundScene{}};
+    std::string tissue = "table1"; // a preset, or a tissue file
+    std::string reflectance_model = "two-stream";
+    passes::Shading shading;
+    std::vector<LightScene> lights{{{-38, 28}, 0.9, false, {1.0, 0.97, 0.93}, 1.0},
+                                   {{55, 8}, 1.2, false, {0.80, 0.88, 1.0}, 0.25}};
+    double ambient = 0.20; // hemispherical light, irradiance / pi, linear; dimmed by the head's ambient occlusion
+    CameraScene camera;
+    std::array<std::uint32_t, 2> size{1280, 720};
+    std::uint32_t samples = 1; // 1 or 4
+    double exposure = 1.0;
+    std::vector<double> days{0, 3, 6, 9, 12, 15, 18, 21, 24, 27, 30};
+};
+
+/// Reads a scene; files inside are relative to the scene's folder. Throws cicatrix::InputError naming file and field.
+Scene read_scene(const std::filesystem::path& path);
+/// The scene as JSON, all fields spelled out, as capture.json records it; read_scene reads it back.
+nlohmann::json to_json(const Scene& scene);
+
+/// "0:30:3" (first:last:step) or "0,5,12"; 0 to 3650, at most 10000 days. Throws cicatrix::InputError naming `where`.
+std::vector<double> parse_days(const std::string& text, const std::string& where);
+/// "1280x720", 16 to 16384 a side. Throws cicatrix::InputError naming `where`.
+std::array<std::uint32_t, 2> parse_size(const std::string& text, const std::string& where);
+
+} // namespace app

@@ -1,0 +1,60 @@
+// Where on a head a wound sits: the face's own coordinates, the wound's frame on the skin, and what of the head lies
+// under its patch.
+#pragma once
+#include <array>
+#include <glm/glm.hpp>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/model.hpp"
+
+namespace passes {
+
+/// The face's coordinates, found from the mesh: origin at the tip of the nose, y up, x to the right of somebody who looks
+/// at the face; the unit is the height from the tip of the nose to the crown (about 0.14 m).
+struct FaceFrame
+{
+    glm::dvec3 nose_tip{0.0};
+    double unit_m = 1.0;
+};
+FaceFrame find_face(const engine::Model& head);
+
+/// A named place, face coordinates, or a point in the head's own metres.
+struct FacePoint
+{
+    double x = 0, y = 0;
+};
+using Place = std::variant<std::string, FacePoint, glm::dvec3>;
+
+/// The named places and their face coordinates.
+struct NamedPlace
+{
+    const char* name;
+    FacePoint at;
+};
+std::vector<NamedPlace> named_places();
+
+/// An orthonormal frame on the skin. The patch's texel (u right, v down) maps to centre + half_width (u right + v down).
+struct Anchor
+{
+    glm::dvec3 centre{0.0}, right{1, 0, 0}, down{0, -1, 0}, normal{0, 0, 1};
+    double half_width_m = 0.02; // of the patch
+    FacePoint face;             // the centre in face coordinates
+};
+
+/// Puts a patch of `patch_width_mm` at `place`, turned by `roll_deg` counter-clockwise as the viewer sees it. The normal is the mean
+/// over the footprint, so that the patch lies on the skin rather than on one triangle of it.
+/// Throws cicatrix::InputError (naming `where`) when the place is not on the head.
+Anchor anchor_wound(const engine::Model& head, const FaceFrame& face, const Place& place, double patch_width_mm,
+                    double roll_deg, const std::string& where);
+
+/// True when the triangle can receive the anchor's projection: it overlaps the patch's box and faces it.
+bool receives(const Anchor& anchor, const std::array<glm::vec3, 3>& corners);
+
+/// The skin's linear reflectance under the patch, size x size; NaN where the projection misses the head.
+cv::Mat3f skin_under(const engine::Model& head, std::uint32_t material, const Anchor& anchor, int size);
+
+} // namespace passes

@@ -1,0 +1,59 @@
+#include "passes/wound_texture.hpp"
+
+#include <opencv2/imgproc.hpp>
+
+#include "shaders/shared/wound.h"
+
+namespace passes {
+
+WoundMaps upload_wound(engine::Device& device, const wound::Patch& patch)
+{
+    cv::Mat4f color(patch.color.size());
+    const cv::Mat sources[] = {patch.color, patch.opacity};
+    const int channels[] = {0, 0, 1, 1, 2, 2, 3, 3};
+    cv::mixChannels(sources, 2, &color, 1, channels, 4);
+    cv::Mat2f shape;
+    cv::merge(std::vector<cv::Mat>{patch.depth_mm, patch.mask}, shape);
+
+    WoundMaps maps;
+    maps.color = std::make_unique<engine::Texture>(device, color);
+    maps.shape = std::make_unique<engine::Texture>(device, shape);
+    maps.width_mm = patch.width_mm;
+    maps.size = patch.color.cols;
+    return maps;
+}
+
+WoundTexture add_wound_texture(engine::Graph& graph, const std::string& name, const WoundMaps& maps, const wound::WoundDay& today)
+{
+    const auto size = std::uint32_t(maps.size);
+    const engine::ImageDesc desc{size, size, VK_FORMAT_R16G16B16A16_SFLOAT};
+    const WoundTexture texture{graph.image(name + " color", desc), graph.image(name + " state", desc), graph.image(name + " relief", desc)};
+
+    std::vector<shared::vec2> values;
+    shared::WoundToday params{};
+    params.border = wound::pack(today.border_warp, values);
+    params.bed = wound::pack(today.bed_warp, values);
+    params.bed_recovery = float(today.bed_recovery);
+    params.border_recovery = float(today.border_recovery);
+
+    engine::ComputePass& warp = graph.compute(name + " texture", "wound_texture.comp");
+    warp.constant("RUNG", std::uint32_t(today.border_warp.rung));
+    warp.constant("BED_APART", today.unhealed_ratio != today.border_ratio);
+    warp.sample("day0_color", graph.import(name + " day 0 color", *maps.color), engine::Sampler::LinearClampMips);
+    warp.sample("day0_shape", graph.import(name + " day 0 shape", *maps.shape), engine::Sampler::LinearClampMips);
+    warp.store("color", texture.color);
+    warp.store("state", texture.state);
+    warp.uniform("today", params);
+    warp.buffer<shared::vec2>("WarpValues_", values);
+    warp.dispatch(size, size);
+
+    const double texel_mm = maps.width_mm / maps.size;
+    engine::ComputePass& relief = graph.compute(name + " relief", "wound_relief.comp");
+    relief.sample("state", texture.state);
+    relief.store("relief", texture.relief);
+    relief.uniform("params", shared::Relief{float(today.depth_scale), float(texel_mm), float(4.0 / texel_mm)}); // occlusion looks 4 mm far
+    relief.dispatch(size, size);
+    return texture;
+}
+
+} // namespace passes

@@ -1,0 +1,34 @@
+// Warps a wound's day-0 maps to today and derives what the light needs to know of its relief. Two compute passes per wound,
+// both skipped while the wound and the day stand.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "engine/graph.hpp"
+#include "engine/texture.hpp"
+#include "wound/wound.hpp"
+
+namespace passes {
+
+/// A wound's day-0 maps on the device, uploaded once.
+struct WoundMaps
+{
+    std::unique_ptr<engine::Texture> color; // rgb linear reflectance, a opacity
+    std::unique_ptr<engine::Texture> shape; // r depth in mm, g coverage of the mask
+    double width_mm = 0;                    // of the patch
+    int size = 0;                           // texels a side
+};
+WoundMaps upload_wound(engine::Device& device, const wound::Patch& patch);
+
+/// Today's maps, RGBA16F.
+struct WoundTexture
+{
+    engine::ImageId color;  // rgb: linear reflectance W; a: opacity, 0 the face's own skin
+    engine::ImageId state;  // r: depth of the injury at day 0 in mm; g: recovery 0..1 of eq. (4); b: coverage of the open bed; a: coverage inside the border
+    engine::ImageId relief; // rg: slope of the depth along u and v, mm per mm; b: occlusion of the hollow, 1 open; a: depth today in mm
+};
+
+/// `name` tells the wounds of one scene apart, e.g. "wound 1".
+WoundTexture add_wound_texture(engine::Graph& graph, const std::string& name, const WoundMaps& maps, const wound::WoundDay& today);
+
+} // namespace passes

@@ -1,0 +1,87 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// The head: albedo and normal map, wounds projected in object space with the blend of eq. (4), the shading of eq. (8) of
+// Choi & Chin 2014. What a specialisation constant switches off is not compiled in.
+#include "lib/frame.glsl"
+#include "lib/color.glsl"
+#include "lib/shading.glsl"
+#include "lib/shadow.glsl"
+#include "lib/wound_projection.glsl"
+#include "shared/part.h"
+
+layout(constant_id = 0) const uint WOUNDS = 0; // how many are projected
+layout(constant_id = 1) const bool LAMBERT = true;
+layout(constant_id = 2) const bool TRANSLUCENCY = true;
+layout(constant_id = 3) const bool WARD = true;
+layout(constant_id = 4) const bool NORMAL_MAP = true;
+layout(constant_id = 5) const bool SHADOW = true;
+layout(constant_id = 6) const bool OCCLUSION = true; // ambient light and its occlusion
+layout(constant_id = 7) const uint WARD_MODEL = WARD_BOUNDED;
+layout(constant_id = 8) const uint TRANSLUCENCY_MODEL = TRANSLUCENCY_BOUNDED;
+layout(constant_id = 9) const uint BLEND_MODEL = BLEND_CORRECTED;
+
+layout(location = 0) in vec3 v_position;
+layout(location = 1) in vec3 v_normal;
+layout(location = 2) in vec4 v_tangent;
+layout(location = 3) in vec2 v_uv;
+layout(location = 0) out vec4 out_color;
+
+layout(scalar, binding = 0) uniform View_ { View view; };
+layout(scalar, binding = 1) uniform Part_ { Part part; };
+layout(scalar, binding = 2) uniform Shading_ { ShadingParams shading; };
+layout(scalar, binding = 3) uniform Lighting_ { Lighting lighting; };
+layout(scalar, binding = 4) uniform Wounds_ { WoundFrame wounds[MAX_WOUNDS]; };
+layout(binding = 5) uniform sampler2D albedo_map;
+layout(binding = 6) uniform sampler2D normal_map;
+layout(binding = 7) uniform sampler2D occlusion_map;
+layout(binding = 8) uniform sampler2D wound_color[MAX_WOUNDS];
+layout(binding = 9) uniform sampler2D wound_state[MAX_WOUNDS];
+layout(binding = 10) uniform sampler2D wound_relief[MAX_WOUNDS];
+layout(binding = 11) uniform sampler2D reflectance_lut;
+layout(binding = 12) uniform sampler2D shadow_map;
+
+void main()
+{
+    const vec3 to_viewer = normalize_or(view.eye - v_position, vec3(0, 0, 1));
+    mat3 frame = frame_of(gl_FrontFacing ? v_normal : -v_normal, v_tangent);
+    const vec3 geometric = frame[2];
+    const vec4 albedo = texture(albedo_map, v_uv) * part.albedo_factor;
+
+    SkinPoint skin = SkinPoint(albedo.rgb, geometric, 1, 0, 0);
+    if (NORMAL_MAP)
+    {
+        const vec3 mapped = texture(normal_map, v_uv).xyz * 2 - 1;
+        skin.normal = normalize_or(frame * vec3(mapped.xy * part.normal_scale, max(mapped.z, 0.05)), geometric);
+    }
+    if (OCCLUSION)
+        skin.occlusion = texture(occlusion_map, v_uv).r;
+    for (uint i = 0; i < WOUNDS; ++i)
+        add_wound(BLEND_MODEL, wounds[i], wound_color[i], wound_state[i], wound_relief[i], reflectance_lut, v_position, geometric, skin);
+
+    frame = frame_of(bend_to_viewer(skin.normal, to_viewer), v_tangent);
+    ShadingParams params = shading;
+    // A wet bed mirrors more, in a narrower lobe; taut new epithelium a little so.
+    params.slope *= part.slope * (1 - 0.45 * skin.wetness) * (1 - 0.25 * skin.tautness);
+    params.rho_s *= part.specular * (1 + 0.4 * skin.wetness + 0.2 * skin.tautness);
+    params.rho_ts *= part.translucency * (TRANSLUCENCY_MODEL == TRANSLUCENCY_PUBLISHED ? 1 : skin.occlusion);
+
+    const vec3 local_viewer = to_viewer * frame;
+    vec3 radiance = OCCLUSION ? params.ambient * skin.occlusion * skin.albedo : vec3(0);
+    for (uint i = 0; i < lighting.count; ++i)
+    {
+        const LightSample light = sample_light(lighting.light[i], v_position);
+        const vec3 local_light = light.direction * frame;
+        vec3 direct = vec3(0);
+        if (LAMBERT)
+            direct += surface_diffuse(params, light, skin.albedo, local_light);
+        if (WARD)
+            direct += specular(WARD_MODEL, params, light, local_light, local_viewer);
+        if (SHADOW && i == 0)
+            direct *= shadow_visibility(shadow_map, v_position, geometric);
+        radiance += direct;
+        if (TRANSLUCENCY)
+            radiance += subsurface_diffuse(TRANSLUCENCY_MODEL, params, light, skin.albedo);
+    }
+    out_color = vec4(finite_radiance(radiance), albedo.a);
+}

@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shared/frame.h"
+
+layout(std430, binding = 0) uniform View_ { View view; };
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 uv;
+
+layout(location = 0) out vec3 v_position;
+layout(location = 1) out vec3 v_normal;
+layout(location = 2) out vec4 v_tangent;
+layout(location = 3) out vec2 v_uv;
+
+void main()
+{
+    v_position = position;
+    v_normal = normal;
+    v_tangent = tangent;
+    v_uv = uv;
+    gl_Position = view.clip_from_world * vec4(position, 1);
+}

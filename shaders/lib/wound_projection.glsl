@@ -1,0 +1,56 @@
+// Projects wounds onto the skin in object space: texture seams do not matter, and many wounds can sit on one head.
+// The including shader declares the samplers wound_color, wound_state, wound_relief and reflectance_lut.
+#ifndef LIB_WOUND_PROJECTION_GLSL
+#define LIB_WOUND_PROJECTION_GLSL
+#include "lib/blend.glsl"
+#include "shared/frame.h"
+
+struct SkinPoint
+{
+    vec3 albedo;     // C of eq. (4)
+    vec3 normal;     // unit
+    float occlusion; // 1 open
+    float wetness;   // 0 dry skin .. 1 open bed
+    float tautness;  // 0 porous skin .. 1 new epithelium
+};
+
+// A patch is drawn much smaller than it is stored when the whole face is seen, and graph images have no mip levels: four
+// bilinear taps over the pixel's footprint keep a film from sparkling.
+vec4 patch_sample(sampler2D map, vec2 uv, vec2 dx, vec2 dy)
+{
+    return 0.25 * (textureLod(map, uv + 0.125 * dx + 0.375 * dy, 0) + textureLod(map, uv - 0.375 * dx + 0.125 * dy, 0) +
+                   textureLod(map, uv + 0.375 * dx - 0.125 * dy, 0) + textureLod(map, uv - 0.125 * dx - 0.375 * dy, 0));
+}
+
+// `geometric`: the interpolated normal, which decides what the projection reaches; steep flanks fade out rather than smear.
+void add_wound(uint blend_model, WoundFrame w, sampler2D color_map, sampler2D state_map, sampler2D relief_map, sampler2D lut,
+               vec3 position, vec3 geometric, inout SkinPoint skin)
+{
+    const vec3 d = (position - w.centre) / w.half_width;
+    const vec2 q = vec2(dot(d, w.right), dot(d, w.down));
+    const vec2 uv = 0.5 * q + 0.5;
+    const vec2 dx = dFdx(uv), dy = dFdy(uv); // before any branch: derivatives need the whole quad
+    const float facing = smoothstep(0.15, 0.45, dot(geometric, w.normal)) * (1 - smoothstep(0.8, 1.0, abs(dot(d, w.normal)) / w.reach));
+    if (facing <= 0 || any(greaterThan(abs(q), vec2(1))))
+        return;
+    const vec4 color = patch_sample(color_map, uv, dx, dy);
+    const float opacity = color.a * facing;
+    if (opacity <= 0)
+        return;
+    const vec4 state = patch_sample(state_map, uv, dx, dy);
+    const vec4 relief = patch_sample(relief_map, uv, dx, dy);
+
+    const vec3 reflectance = textureLod(lut, vec2(max(state.r, 0) * w.lut_per_mm + w.lut_first, w.lut_day), 0).rgb;
+    skin.albedo = mix(skin.albedo, recovering_color(blend_model, color.rgb, reflectance, skin.albedo, state.g), opacity);
+
+    const float fresh = 1 - clamp(state.g, 0, 1); // how much of the injury is still to be seen
+    const float bed = state.b * opacity, ring = max(state.a - state.b, 0) * opacity;
+    // The bed has no pores; new epithelium has few. The hollow bends the normal: height is -depth.
+    const vec3 smoothed = mix(skin.normal, geometric, fresh * clamp(0.85 * bed + 0.6 * ring, 0, 1));
+    skin.normal = normalize(smoothed + facing * (relief.x * w.right + relief.y * w.down));
+    skin.occlusion *= mix(1.0, relief.z, facing);
+    skin.wetness = max(skin.wetness, bed * sqrt(fresh));
+    skin.tautness = max(skin.tautness, ring * fresh);
+}
+
+#endif

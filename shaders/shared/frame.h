@@ -1,0 +1,38 @@
+// What the forward pass is told each frame; the same bytes in C++ and GLSL (scalar layout).
+#ifndef SHARED_FRAME_H
+#define SHARED_FRAME_H
+#include "glsl.h"
+#ifdef __cplusplus
+namespace shared {
+#endif
+
+#ifdef __cplusplus
+constexpr uint MAX_WOUNDS = 8;
+#else
+const uint MAX_WOUNDS = 8;
+#endif
+
+struct View
+{
+    mat4 clip_from_world;
+    vec3 eye; // metres
+};
+
+/// Where a wound's patch lies on the head, and how far it is today.
+struct WoundFrame
+{
+    vec3 centre;          // metres
+    float half_width;     // metres, of the patch
+    vec3 right;           // unit
+    float lut_day;        // today, as the LUT's v coordinate
+    vec3 down;            // unit
+    float reach;          // skin further from the patch's plane than this receives nothing; in half widths
+    vec3 normal;          // unit
+    float lut_first;      // injury depth in mm -> the LUT's u coordinate: lut_first + lut_per_mm * depth
+    float lut_per_mm;
+};
+
+#ifdef __cplusplus
+}
+#endif
+#endif

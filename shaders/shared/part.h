@@ -1,0 +1,21 @@
+// What the forward pass is told of one part of the head; the same bytes in C++ and GLSL (scalar layout).
+#ifndef SHARED_PART_H
+#define SHARED_PART_H
+#include "glsl.h"
+#ifdef __cplusplus
+namespace shared {
+#endif
+
+struct Part
+{
+    vec4 albedo_factor;  // multiplies the albedo map; linear
+    float normal_scale;  // glTF: multiplies the normal map's x and y
+    float specular;      // multiplies rho_s: an eye is smooth, a brow has no highlight
+    float slope;         // multiplies the slopes of Ward's lobe
+    float translucency;  // multiplies rho_ts
+};
+
+#ifdef __cplusplus
+} // namespace shared
+#endif
+#endif

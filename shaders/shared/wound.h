@@ -1,0 +1,30 @@
+// Parameters of the wound's two compute passes; the same bytes in C++ and GLSL (scalar layout).
+#ifndef SHARED_WOUND_H
+#define SHARED_WOUND_H
+#include "glsl.h"
+#include "warp.h"
+#ifdef __cplusplus
+namespace shared {
+#endif
+
+/// The wound today, for wound_texture.comp.
+struct WoundToday
+{
+    WarpHeader border;      // today's patch -> day 0, for what lies inside the outer border
+    WarpHeader bed;         // the same for the open bed
+    float bed_recovery;     // r of eq. (4) in the open bed
+    float border_recovery;  // r of eq. (4) elsewhere: on new epithelium and in the rim
+};
+
+/// For wound_relief.comp.
+struct Relief
+{
+    float depth_scale;  // today's depth / day 0's
+    float texel_mm;     // width of a texel on the skin
+    float reach_texels; // how far occlusion looks
+};
+
+#ifdef __cplusplus
+} // namespace shared
+#endif
+#endif

@@ -1,0 +1,46 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Slope and occlusion of the wound's hollow from its depth, once per day, so that the forward pass pays one sample.
+#include "shared/wound.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D state;
+layout(binding = 1, rgba16f) uniform writeonly image2D relief;
+layout(scalar, binding = 2) uniform Relief_ { Relief params; };
+
+float depth(ivec2 p) { return params.depth_scale * texelFetch(state, clamp(p, ivec2(0), textureSize(state, 0) - 1), 0).r; }
+
+void main()
+{
+    const ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    const ivec2 size = imageSize(relief);
+    if (any(greaterThanEqual(p, size)))
+        return;
+
+    // Sobel: a slope less noisy than the central difference at the same reach.
+    const float l = depth(p + ivec2(-1, -1)) + 2 * depth(p + ivec2(-1, 0)) + depth(p + ivec2(-1, 1));
+    const float r = depth(p + ivec2(1, -1)) + 2 * depth(p + ivec2(1, 0)) + depth(p + ivec2(1, 1));
+    const float t = depth(p + ivec2(-1, -1)) + 2 * depth(p + ivec2(0, -1)) + depth(p + ivec2(1, -1));
+    const float b = depth(p + ivec2(-1, 1)) + 2 * depth(p + ivec2(0, 1)) + depth(p + ivec2(1, 1));
+    const vec2 slope = vec2(r - l, b - t) / (8 * params.texel_mm);
+
+    // Horizon-based occlusion over eight directions: how far the walls stand up around this point. cos^2 of the
+    // horizon's elevation is the cosine-weighted share of the sky that a direction's slice still sees.
+    const float here = depth(p);
+    float open = 0;
+    for (int k = 0; k < 8; ++k)
+    {
+        const float angle = 6.2831853 * (float(k) + 0.5) / 8;
+        const vec2 direction = vec2(cos(angle), sin(angle));
+        float steepest = 0; // tangent of the horizon's elevation
+        for (int step = 1; step <= 6; ++step)
+        {
+            const float distance_texels = params.reach_texels * float(step * step) / 36;
+            const float rise = here - depth(p + ivec2(round(direction * distance_texels)));
+            steepest = max(steepest, rise / (max(distance_texels, 1.0) * params.texel_mm));
+        }
+        open += 1 / (1 + steepest * steepest);
+    }
+    imageStore(relief, p, vec4(slope, open / 8, here));
+}

@@ -1,0 +1,45 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// The wound's day-0 maps as they lie today: Choi & Chin 2014, section 3. Each texel asks the backward warp where its skin lay.
+#include "shared/wound.h"
+
+layout(constant_id = 0) const uint RUNG = 1;          // wound::WarpRung
+layout(constant_id = 1) const bool BED_APART = false; // the bed closes inside the border by a warp of its own
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D day0_color; // rgb reflectance, a opacity
+layout(binding = 1) uniform sampler2D day0_shape; // r depth in mm, g coverage of the mask
+layout(binding = 2, rgba16f) uniform writeonly image2D color;
+layout(binding = 3, rgba16f) uniform writeonly image2D state;
+layout(scalar, binding = 4) uniform Today_ { WoundToday today; };
+layout(scalar, binding = 5) readonly buffer WarpValues_ { vec2 warp_values[]; };
+#include "lib/warp.glsl"
+
+// Contraction squeezes several day-0 texels into one of today; the mip level that holds them follows from how far the radius moved.
+float mip_of(vec2 today_point, vec2 day0_point, vec2 centroid)
+{
+    return log2(max(distance(day0_point, centroid) / max(distance(today_point, centroid), 1e-6), 1));
+}
+
+void main()
+{
+    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    const ivec2 size = imageSize(color);
+    if (any(greaterThanEqual(texel, size)))
+        return;
+    const vec2 p = (vec2(texel) + 0.5) * 2 / vec2(size) - 1;
+
+    const vec2 from_border = warp_backward(RUNG, today.border, p);
+    const float border_mip = mip_of(p, from_border, today.border.centroid);
+    const vec4 day0 = textureLod(day0_color, from_border * 0.5 + 0.5, border_mip);
+    vec2 border_shape = textureLod(day0_shape, from_border * 0.5 + 0.5, border_mip).rg;
+    vec2 bed_shape = border_shape;
+    if (BED_APART)
+    {
+        const vec2 from_bed = warp_backward(RUNG, today.bed, p);
+        bed_shape = textureLod(day0_shape, from_bed * 0.5 + 0.5, mip_of(p, from_bed, today.bed.centroid)).rg;
+    }
+    imageStore(color, texel, day0);
+    imageStore(state, texel, vec4(bed_shape.r, mix(today.border_recovery, today.bed_recovery, bed_shape.g), bed_shape.g, border_shape.g));
+}
