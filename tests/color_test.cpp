@@ -55,8 +55,7 @@ const SharmaPair sharma_table[] = {
 
 TEST(Color, DeltaE2000MatchesSharmasTable)
 {
-    for (const auto& pair : sharma_table)
-    {
+    for (const auto& pair : sharma_table) {
         EXPECT_NEAR(wound::delta_e2000(pair.x, pair.y), pair.delta_e, 5e-5) << pair.x.a << ' ' << pair.x.b;
         EXPECT_NEAR(wound::delta_e2000(pair.y, pair.x), pair.delta_e, 5e-5) << pair.x.a << ' ' << pair.x.b;
     }
@@ -70,8 +69,7 @@ TEST(Color, SrgbIsContinuousAndItsOwnInverse)
     EXPECT_NEAR(wound::srgb_from_linear(0.18), 0.46135612950044, 1e-12); // mid grey
     for (double x = 0; x <= 1; x += 1.0 / 1024)
         EXPECT_NEAR(wound::linear_from_srgb(wound::srgb_from_linear(x)), x, 1e-7) << x;
-    for (int code = 0; code < 256; ++code)
-    {
+    for (int code = 0; code < 256; ++code) {
         const cv::Vec3b rgb = cv::Vec3b::all(static_cast<uchar>(code));
         EXPECT_EQ(wound::srgb8_from_linear(wound::linear_from_srgb8(rgb)), rgb);
     }
@@ -100,6 +98,7 @@ TEST(Color, LabOfKnownColors)
 
 TEST(Color, LabAndBackIsTheSameColor)
 {
-    for (const wound::Color& color : {wound::Color(0, 0, 0), wound::Color(0.6, 0.3, 0.2), wound::Color(0.001, 0, 0.002)})
+    for (const wound::Color& color :
+         {wound::Color(0, 0, 0), wound::Color(0.6, 0.3, 0.2), wound::Color(0.001, 0, 0.002)})
         EXPECT_LT(cv::norm(wound::linear_from_lab(wound::lab_from_linear(color)) - color), 1e-12);
 }

@@ -26,13 +26,25 @@ double lab_unroot(double f)
     return f > lab_knee ? f * f * f : 3 * lab_knee * lab_knee * (f - 4.0 / 29.0);
 }
 
-double square(double x) { return x * x; }
+double square(double x)
+{
+    return x * x;
+}
 
-double seventh(double x) { return std::pow(x, 7); }
+double seventh(double x)
+{
+    return std::pow(x, 7);
+}
 
-double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+double degrees(double radians)
+{
+    return radians * 180 / std::numbers::pi;
+}
 
-double radians(double degrees_) { return degrees_ * std::numbers::pi / 180; }
+double radians(double degrees_)
+{
+    return degrees_ * std::numbers::pi / 180;
+}
 
 // Hue angle in 0..360; a colour without chroma has hue 0 by definition (Sharma et al. eq. 7).
 double hue_deg(double a, double b)
@@ -64,8 +76,7 @@ Color linear_from_srgb8(const cv::Vec3b& rgb)
 cv::Vec3b srgb8_from_linear(const Color& linear)
 {
     cv::Vec3b result;
-    for (int i = 0; i < 3; ++i)
-    {
+    for (int i = 0; i < 3; ++i) {
         const double inside = std::fmin(std::fmax(linear[i], 0.0), 1.0); // fmax turns NaN into 0
         result[i] = static_cast<uchar>(std::lround(255 * srgb_from_linear(inside)));
     }
@@ -88,8 +99,9 @@ Color linear_from_lab(const Lab& lab)
                                        white[2] * lab_unroot(y - lab.b / 200));
 }
 
-// G. Sharma, W. Wu, E. Dalal 2005, "The CIEDE2000 color-difference formula: implementation notes, supplementary test
-// data, and mathematical observations", Color Research and Application 30(1). Equation numbers are theirs.
+// G. Sharma, W. Wu, E. Dalal 2005, "The CIEDE2000 color-difference formula: implementation notes,
+// supplementary test data, and mathematical observations", Color Research and Application 30(1). Equation
+// numbers are theirs.
 double delta_e2000(const Lab& x, const Lab& y)
 {
     const double pow25 = seventh(25);
@@ -110,8 +122,7 @@ double delta_e2000(const Lab& x, const Lab& y)
 
     const double l = (x.l + y.l) / 2, c = (c1 + c2) / 2;
     double h = h1 + h2; // (14)
-    if (!gray)
-    {
+    if (!gray) {
         if (std::abs(h1 - h2) > 180)
             h += h < 360 ? 360 : -360;
         h /= 2;
@@ -124,7 +135,8 @@ double delta_e2000(const Lab& x, const Lab& y)
     const double sc = 1 + 0.045 * c;                                                             // (19)
     const double sh = 1 + 0.015 * c * t;                                                         // (20)
     const double rt = -std::sin(radians(2 * turn)) * rc;                                         // (21)
-    return std::sqrt(square(dl / sl) + square(dc / sc) + square(dh / sh) + rt * (dc / sc) * (dh / sh)); // (22)
+    return std::sqrt(square(dl / sl) + square(dc / sc) + square(dh / sh) +
+                     rt * (dc / sc) * (dh / sh)); // (22)
 }
 
 } // namespace wound

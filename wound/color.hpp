@@ -6,7 +6,8 @@ namespace wound {
 
 using Color = cv::Vec3d; // linear Rec. 709 (sRGB primaries, D65 white); 1 = diffuse white
 
-/// IEC 61966-2-1, exact piecewise form, one channel. Below 0 the straight part goes on; above 1 the power does.
+/// IEC 61966-2-1, exact piecewise form, one channel. Below 0 the straight part goes on; above 1 the power
+/// does.
 double srgb_from_linear(double linear);
 double linear_from_srgb(double encoded);
 
