@@ -2,6 +2,8 @@
 #pragma once
 #include <filesystem>
 #include <opencv2/core.hpp>
+#include <system_error>
+#include <utility>
 
 namespace engine {
 
@@ -17,8 +19,24 @@ void write_png(const std::filesystem::path& path, const cv::Mat1b& gray);
 /// Linear light, 32-bit float.
 void write_exr(const std::filesystem::path& path, const cv::Mat3f& rgb);
 
+/// The two halves of write_atomically that need no template.
+std::filesystem::path temporary_beside(const std::filesystem::path& path);
+void rename_over(const std::filesystem::path& temporary, const std::filesystem::path& path);
+
 /// Runs `write(temporary)` and renames the temporary to `path`; on any failure the temporary is gone and `path` is as it was.
+/// `write` takes the temporary's path, which lies beside `path`. Failures to write or rename are cicatrix::InputError.
 template <typename Write>
-void write_atomically(const std::filesystem::path& path, Write&& write);
+void write_atomically(const std::filesystem::path& path, Write&& write)
+{
+    const std::filesystem::path temporary = temporary_beside(path);
+    try {
+        std::forward<Write>(write)(temporary);
+        rename_over(temporary, path);
+    } catch (...) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        throw;
+    }
+}
 
 } // namespace engine

@@ -1,0 +1,99 @@
+#include "engine/image_io.hpp"
+
+#include <atomic>
+#include <cstdlib>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <unistd.h>
+
+#include "engine/file.hpp"
+#include "engine/image_codec.hpp"
+#include "wound/input_error.hpp"
+
+namespace engine {
+namespace {
+
+constexpr std::size_t max_file = std::size_t{1} << 30; // bytes
+
+void write_encoded(const std::filesystem::path& path, std::span<const std::uint8_t> bytes)
+{
+    write_atomically(path, [&](const std::filesystem::path& temporary) { write_file(temporary, bytes); });
+}
+
+void write_converted(const std::filesystem::path& path, const cv::Mat& picture, cv::ColorConversionCodes to_opencv)
+{
+    cv::Mat converted;
+    cv::cvtColor(picture, converted, to_opencv);
+    write_encoded(path, encode_png(converted));
+}
+
+} // namespace
+
+cv::Mat3b read_rgb(const std::filesystem::path& path)
+{
+    const cv::Mat bgr = decode_picture(read_file(path, max_file), Channels::Color, path.string());
+    cv::Mat3b rgb;
+    cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+    return rgb;
+}
+
+cv::Mat1b read_mask(const std::filesystem::path& path)
+{
+    const auto bytes = read_file(path, max_file);
+    const cv::Mat stored = decode_picture(bytes, Channels::AsStored, path.string());
+    if (stored.channels() != 4) {
+        cv::Mat gray;
+        cv::cvtColor(decode_picture(bytes, Channels::Color, path.string()), gray, cv::COLOR_BGR2GRAY);
+        return gray > 127;
+    }
+    cv::Mat gray, alpha;
+    cv::cvtColor(stored, gray, cv::COLOR_BGRA2GRAY);
+    cv::extractChannel(stored, alpha, 3);
+    cv::Mat product;
+    cv::multiply(gray, alpha, product, 1.0, CV_32S);
+    return product > 255 * 255 / 2;
+}
+
+void write_png(const std::filesystem::path& path, const cv::Mat3b& rgb) { write_converted(path, rgb, cv::COLOR_RGB2BGR); }
+
+void write_png(const std::filesystem::path& path, const cv::Mat4b& rgba) { write_converted(path, rgba, cv::COLOR_RGBA2BGRA); }
+
+void write_png(const std::filesystem::path& path, const cv::Mat1b& gray) { write_encoded(path, encode_png(gray)); }
+
+void write_exr(const std::filesystem::path& path, const cv::Mat3f& rgb)
+{
+    // OpenCV keeps its OpenEXR codec locked (for fear of hostile files, which we do not read) until this is set.
+    setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
+    cv::Mat bgr;
+    cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(".exr", bgr, bytes, {cv::IMWRITE_EXR_TYPE, cv::IMWRITE_EXR_TYPE_FLOAT});
+    write_encoded(path, bytes);
+}
+
+std::filesystem::path temporary_beside(const std::filesystem::path& path)
+{
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    std::error_code error;
+    if (!std::filesystem::is_directory(folder, error))
+        throw cicatrix::InputError(path.string(), fmt::format("there is no folder {}", folder.string()), "make it first");
+    if (access(folder.c_str(), W_OK) != 0 || std::filesystem::is_directory(path, error))
+        throw cicatrix::InputError(path.string(), "cannot be written there", "choose a folder that can be written to");
+    static std::atomic<unsigned> count = 0;
+    std::filesystem::path temporary = path;
+    // The extension stays last, for writers that choose a format by it.
+    temporary.replace_filename(
+        fmt::format(".{}.{}-{}{}", path.stem().string(), getpid(), count++, path.extension().string()));
+    return temporary;
+}
+
+void rename_over(const std::filesystem::path& temporary, const std::filesystem::path& path)
+{
+    std::error_code error;
+    std::filesystem::rename(temporary, path, error);
+    if (error)
+        throw cicatrix::InputError(path.string(), fmt::format("cannot be written: {}", error.message()),
+                                   "choose a folder that exists and can be written to");
+}
+
+} // namespace engine

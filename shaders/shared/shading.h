@@ -1,0 +1,55 @@
+// What shading a point needs, eqs. (4)-(8) of Choi & Chin 2014; wound/shading.hpp explains each value and checks it.
+#ifndef SHARED_SHADING_H
+#define SHARED_SHADING_H
+#include "glsl.h"
+#ifdef __cplusplus
+namespace shared {
+#define CONSTANT constexpr uint
+#else
+#define CONSTANT const uint
+#endif
+
+// The order of the enums of wound/shading.hpp; which one is a specialisation constant of the shader.
+CONSTANT WARD_PUBLISHED = 0;
+CONSTANT WARD_DUER = 1;
+CONSTANT WARD_BOUNDED = 2;
+CONSTANT TRANSLUCENCY_PUBLISHED = 0;
+CONSTANT TRANSLUCENCY_BOUNDED = 1;
+CONSTANT BLEND_PUBLISHED = 0;
+CONSTANT BLEND_CORRECTED = 1;
+CONSTANT LIGHT_DIRECTIONAL = 0;
+CONSTANT LIGHT_POINT = 1;
+CONSTANT LIGHT_POINT_WITHOUT_FALLOFF = 2;
+CONSTANT MAX_LIGHTS = 8;
+
+struct ShadingParams
+{
+    float rho_d, rho_ts, rho_s;     // diffuse, translucent, specular; 0..1
+    float alpha, beta, gamma;       // eq. (6), for distances in the paper's unit
+    float translucency_bound;       // W, largest weight of the bounded translucency
+    vec2 slope;                     // alpha_x, alpha_y of eq. (7), 1e-4..1.5
+    vec3 ambient;                   // linear radiance of the surroundings, seen where occlusion leaves them open
+};
+
+struct Light
+{
+    vec3 position;            // m; of a directional light: a point of the plane from which distance is measured
+    uint kind;                // LIGHT_...
+    vec3 direction;           // unit, towards the light; directional only
+    float reference_distance; // m
+    vec3 strength;            // linear radiance of a white diffuser facing the light at the reference distance
+    float distance_scale;     // paper's units per metre
+    float distance_offset;    // paper's units
+};
+
+struct Lighting
+{
+    uint count; // lights in use; light[0] is the key light, the one that casts shadows
+    Light light[MAX_LIGHTS];
+};
+
+#undef CONSTANT
+#ifdef __cplusplus
+} // namespace shared
+#endif
+#endif
