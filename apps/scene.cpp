@@ -103,6 +103,52 @@ CameraScene read_camera(const json& object, const std::string& where)
     return camera;
 }
 
+wound::Rung read_rung(Fields& fields, wound::Rung fallback)
+{
+    const std::string chosen = fields.choice("reflectance_model", std::string(name(fallback)), {"published", "clamped", "exponential", "two-stream-paper", "two-stream"});
+    for (const wound::Rung rung : {wound::Rung::Published, wound::Rung::Clamped, wound::Rung::Exponential, wound::Rung::TwoStreamPaper})
+        if (name(rung) == chosen)
+            return rung;
+    return wound::Rung::TwoStream;
+}
+
+/// An enum by the names of its values, in order.
+template <typename Enum>
+Enum read_enum(Fields& fields, const std::string& name, Enum fallback, const std::vector<std::string>& names)
+{
+    const std::string chosen = fields.choice(name, names[std::size_t(fallback)], names);
+    return Enum(std::ranges::find(names, chosen) - names.begin());
+}
+
+const std::vector<std::string> ward_names{"published", "duer", "bounded"}, translucency_names{"published", "bounded"},
+    blend_names{"published", "corrected"};
+
+passes::Shading read_shading(const json& object, const std::string& where, passes::Shading shading)
+{
+    Fields fields(object, where);
+    wound::Shading& model = shading.model;
+    shading.lambert = fields.boolean("lambert", shading.lambert);
+    shading.translucency = fields.boolean("translucency", shading.translucency);
+    shading.ward = fields.boolean("ward", shading.ward);
+    shading.normal_map = fields.boolean("normal_map", shading.normal_map);
+    shading.shadow = fields.boolean("shadow", shading.shadow);
+    model.ward = read_enum(fields, "ward_model", model.ward, ward_names);
+    model.translucency = read_enum(fields, "translucency_model", model.translucency, translucency_names);
+    shading.blend = read_enum(fields, "blend", shading.blend, blend_names);
+    model.rho_d = fields.number("rho_d", model.rho_d, 0, 1);
+    model.rho_ts = fields.number("rho_ts", model.rho_ts, 0, 1);
+    model.rho_s = fields.number("rho_s", model.rho_s, 0, 1);
+    model.alpha = fields.number("alpha", model.alpha, -1e6, 1e6);
+    model.beta = fields.number("beta", model.beta, -1e6, 1e6);
+    model.gamma = fields.number("gamma", model.gamma, 0, 100);
+    model.alpha_x = fields.number("alpha_x", model.alpha_x, 1e-4, 1.5);
+    model.alpha_y = fields.number("alpha_y", model.alpha_y, 1e-4, 1.5);
+    const auto ambient = fields.numbers<3>("ambient", {shading.ambient.x, shading.ambient.y, shading.ambient.z}, 0, 1000);
+    shading.ambient = glm::vec3(ambient[0], ambient[1], ambient[2]);
+    fields.finish();
+    return shading;
+}
+
 std::vector<double> read_days(const json& value, const std::string& where)
 {
     if (value.is_string())
@@ -116,6 +162,96 @@ std::vector<double> read_days(const json& value, const std::string& where)
 }
 
 } // namespace
+
+passes::Shading corrected_shading()
+{
+    passes::Shading shading;
+    shading.model.rho_s = 0.28; // skin mirrors 3 to 4 %; the paper's .8 would make it plastic
+    shading.model.alpha_x = shading.model.alpha_y = 0.35;
+    shading.ambient = glm::vec3(0.14f, 0.145f, 0.16f);
+    return shading;
+}
+
+passes::Shading published_shading()
+{
+    passes::Shading shading;
+    shading.model.ward = wound::WardModel::Published;
+    shading.model.translucency = wound::TranslucencyModel::Published;
+    shading.blend = wound::BlendModel::Published;
+    shading.shadow = false;
+    return shading;
+}
+
+json to_json(const Scene& scene)
+{
+    const passes::Shading& shading = scene.shading;
+    const wound::Shading& model = shading.model;
+    json wounds = json::array(), lights = json::array();
+    for (const WoundScene& wound : scene.wounds)
+    {
+        json at;
+        if (const auto* place = std::get_if<std::string>(&wound.place))
+            at = *place;
+        else if (const auto* face = std::get_if<passes::FacePoint>(&wound.place))
+            at = {face->x, face->y};
+        else
+            at = {std::get<glm::dvec3>(wound.place).x, std::get<glm::dvec3>(wound.place).y, std::get<glm::dvec3>(wound.place).z};
+        const wound::Healing& healing = wound.healing;
+        wounds.push_back({{"photo", wound.photo.string()},
+                          {"mask", wound.mask.string()},
+                          {"kind", wound.kind},
+                          {"seed", wound.seed},
+                          {"at", at},
+                          {"width_mm", wound.width_mm},
+                          {"roll_deg", wound.roll_deg},
+                          {"depth_factor", wound.depth_factor},
+                          {"healing",
+                           {{"model", healing.model == wound::HealingModel::face ? "face" : "contraction"},
+                            {"delta", healing.curve.delta},
+                            {"gamma", healing.curve.gamma},
+                            {"theta", healing.curve.theta},
+                            {"residual_border", healing.residual_border}}}});
+    }
+    for (const LightScene& light : scene.lights)
+        lights.push_back({{"azimuth_deg", light.from.azimuth_deg},
+                          {"elevation_deg", light.from.elevation_deg},
+                          {"distance_m", light.distance_m},
+                          {"directional", light.directional},
+                          {"color", light.color},
+                          {"intensity", light.intensity}});
+    return {{"head", scene.head.string()},
+            {"wounds", wounds},
+            {"tissue", scene.tissue},
+            {"reflectance_model", name(scene.reflectance_model)},
+            {"shading",
+             {{"lambert", shading.lambert},
+              {"translucency", shading.translucency},
+              {"ward", shading.ward},
+              {"normal_map", shading.normal_map},
+              {"shadow", shading.shadow},
+              {"ward_model", ward_names[std::size_t(model.ward)]},
+              {"translucency_model", translucency_names[std::size_t(model.translucency)]},
+              {"blend", blend_names[std::size_t(shading.blend)]},
+              {"rho_d", model.rho_d},
+              {"rho_ts", model.rho_ts},
+              {"rho_s", model.rho_s},
+              {"alpha", model.alpha},
+              {"beta", model.beta},
+              {"gamma", model.gamma},
+              {"alpha_x", model.alpha_x},
+              {"alpha_y", model.alpha_y},
+              {"ambient", {shading.ambient.x, shading.ambient.y, shading.ambient.z}}}},
+            {"lights", lights},
+            {"camera",
+             {{"azimuth_deg", scene.camera.from.azimuth_deg},
+              {"elevation_deg", scene.camera.from.elevation_deg},
+              {"distance_m", scene.camera.distance_m},
+              {"fov_deg", scene.camera.fov_deg}}},
+            {"size", fmt::format("{}x{}", scene.size[0], scene.size[1])},
+            {"msaa", scene.samples == 4},
+            {"exposure_stops", scene.exposure_stops},
+            {"days", scene.days}};
+}
 
 Scene read_scene(const std::filesystem::path& path)
 {
@@ -135,9 +271,9 @@ Scene read_scene(const std::filesystem::path& path)
     scene.tissue = fields.text("tissue", scene.tissue);
     if (scene.tissue.ends_with(".json"))
         scene.tissue = beside(path, scene.tissue).string();
-    scene.reflectance_model = fields.choice("reflectance_model", scene.reflectance_model, {"published", "clamped", "two-stream"});
+    scene.reflectance_model = read_rung(fields, scene.reflectance_model);
     if (const json* shading = fields.get("shading"))
-        scene.shading = read_shading(*shading, file + "/shading");
+        scene.shading = read_shading(*shading, file + "/shading", scene.shading);
     if (const json* lights = fields.get("lights"))
     {
         if (!lights->is_array() || lights->size() > std::size_t(shared::MAX_LIGHTS))
@@ -146,13 +282,12 @@ Scene read_scene(const std::filesystem::path& path)
         for (std::size_t i = 0; i < lights->size(); ++i)
             scene.lights.push_back(read_light((*lights)[i], fmt::format("{}/lights/{}", file, i)));
     }
-    scene.ambient = fields.number("ambient", scene.ambient, 0, 1000);
     if (const json* camera = fields.get("camera"))
         scene.camera = read_camera(*camera, file + "/camera");
     if (const json* size = fields.get("size"))
         scene.size = parse_size(size->is_string() ? size->get<std::string>() : size->dump(), file + "/size");
     scene.samples = fields.boolean("msaa", scene.samples == 4) ? 4 : 1;
-    scene.exposure = fields.number("exposure", scene.exposure, 0, 1e6);
+    scene.exposure_stops = fields.number("exposure_stops", scene.exposure_stops, -20, 20);
     if (const json* days = fields.get("days"))
         scene.days = read_days(*days, file + "/days");
     fields.finish();

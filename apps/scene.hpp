@@ -10,6 +10,7 @@
 #include "passes/forward.hpp"
 #include "passes/placement.hpp"
 #include "wound/healing.hpp"
+#include "wound/reflectance.hpp"
 
 namespace app {
 
@@ -48,20 +49,23 @@ struct CameraScene
     double fov_deg = 20;   // vertical
 };
 
+/// The mended equations with coefficients for skin, and everything as the paper prints it.
+passes::Shading corrected_shading();
+passes::Shading published_shading();
+
 struct Scene
 {
     std::filesystem::path head; // empty: the default head
     std::vector<WoundScene> wounds{WoundScene{}};
     std::string tissue = "table1"; // a preset, or a tissue file
-    std::string reflectance_model = "two-stream";
-    passes::Shading shading;
+    wound::Rung reflectance_model = wound::Rung::TwoStream;
+    passes::Shading shading = corrected_shading();
     std::vector<LightScene> lights{{{-38, 28}, 0.9, false, {1.0, 0.97, 0.93}, 1.0},
                                    {{55, 8}, 1.2, false, {0.80, 0.88, 1.0}, 0.25}};
-    double ambient = 0.20; // hemispherical light, irradiance / pi, linear; dimmed by the head's ambient occlusion
     CameraScene camera;
     std::array<std::uint32_t, 2> size{1280, 720};
     std::uint32_t samples = 1; // 1 or 4
-    double exposure = 1.0;
+    double exposure_stops = 0; // each doubles the light
     std::vector<double> days{0, 3, 6, 9, 12, 15, 18, 21, 24, 27, 30};
 };
 

@@ -2,53 +2,56 @@
 // declaration and a run.
 #pragma once
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "apps/scene.hpp"
 #include "engine/device.hpp"
-#include "engine/executor.hpp"
 #include "passes/frame.hpp"
 #include "wound/wound.hpp"
 
 namespace app {
 
-struct StageWound
-{
-    wound::PreparedWound prepared;
-    wound::Healing healing;
-    passes::WoundMaps maps;
-    passes::Anchor anchor;
-};
-
 class Stage
 {
   public:
-    /// Loads and uploads. Lines for the user ("no normals: computed") go to `note`. Throws cicatrix::InputError.
-    Stage(engine::Device& device, const Scene& scene, const std::function<void(const std::string&)>& note);
+    /// What a scene needs of the CPU: the head and the wounds, read and prepared. Needs no device, so that it can be made while
+    /// one is opened. Lines for the user ("no normals: computed") are collected in `notes`. Throws cicatrix::InputError.
+    struct Props
+    {
+        engine::Model head;
+        passes::FaceFrame face;
+        std::vector<wound::PreparedWound> wounds; // matched to the skin they lie on
+        std::vector<passes::Anchor> anchors;
+        wound::SkinLayers tissue;
+        std::vector<std::string> notes;
+    };
+    static Props prepare(const Scene& scene);
+
+    Stage(const engine::Device& device, const Scene& scene, Props props);
 
     const Scene& scene() const { return scene_; }
-    const std::vector<StageWound>& wounds() const { return wounds_; }
-    wound::WoundDay wound_on(std::size_t wound, double day) const;
+    const Props& props() const { return props_; }
+    std::vector<wound::WoundDay> wounds_on(double day) const;
 
-    /// The scene's camera, and one that looks straight at a wound and sees `wound_widths` times its patch's width.
+    /// The scene's camera.
     passes::Camera camera() const;
+    /// Looks straight at a wound, or at the face's middle in a head without any.
     passes::Camera close_up(std::size_t wound) const;
 
-    /// Declares the frame of one day.
-    passes::FrameImages declare(engine::Graph& graph, double day, const passes::Camera& camera, const passes::Shading& shading) const;
+    /// Declares the frame of one day. `size` is the picture's.
+    passes::FrameImages declare(engine::Graph& graph, const std::vector<wound::WoundDay>& today, const passes::Camera& camera,
+                                const passes::Shading& shading, std::array<std::uint32_t, 2> size) const;
 
   private:
     Scene scene_;
-    std::vector<StageWound> wounds_;
+    Props props_;
     passes::Head head_;
-    passes::FaceFrame face_;
-    std::vector<shared::Light> lights_;
-    passes::SkinTissue tissue_;
+    std::vector<passes::SceneWound> wounds_;
+    std::vector<wound::Light> lights_;
 };
 
-/// Where set-up leaves the default head: $XDG_CACHE_HOME or ~/.cache, cicatrix/.
+/// Where set-up leaves the default head.
 std::filesystem::path default_head();
 
 } // namespace app

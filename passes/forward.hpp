@@ -1,6 +1,8 @@
 // Draws the head: albedo and normal map, wounds projected in object space, the blend of eq. (4) and the shading of eq. (8).
 // Triangles that no wound touches are drawn by a variant that knows no wounds; a term that is off is not compiled in.
 #pragma once
+#include <glm/glm.hpp>
+#include <optional>
 #include <span>
 
 #include "engine/graph.hpp"
@@ -9,38 +11,50 @@
 #include "passes/reflectance_lut.hpp"
 #include "passes/wound_texture.hpp"
 #include "shaders/shared/frame.h"
-#include "shaders/shared/shading.h"
+#include "shaders/shared/shadow.h"
+#include "wound/shading.hpp"
 
 namespace passes {
 
-/// Which terms are computed and by which of their siblings; each field is a specialisation constant of the shader.
+/// What the forward pass computes: the coefficients and models of wound::Shading, and which terms are on. Each switch is a
+/// specialisation constant of the shader: off costs nothing.
 struct Shading
 {
+    wound::Shading model;
+    wound::BlendModel blend = wound::BlendModel::Corrected;
     bool lambert = true, translucency = true, ward = true;
     bool normal_map = true, shadow = true;
-    std::uint32_t ward_model = 2;         // WARD_*, shaders/shared/shading.h
-    std::uint32_t translucency_model = 1; // TRANSLUCENCY_*
-    std::uint32_t blend_model = 1;        // BLEND_*
-    shared::ShadingParams params;
+    glm::vec3 ambient{0}; // linear radiance of the surroundings; 0 leaves the term out
 };
+
+struct Camera
+{
+    glm::dvec3 eye{0, 0, 1}, target{0, 0, 0}; // metres
+    double fov_deg = 20;                      // vertical
+};
+/// Depth range fitted to a head of these bounds.
+shared::View make_view(const Camera& camera, const Head& head, double aspect);
 
 struct PlacedWound
 {
     Anchor anchor;
     WoundTexture texture;
-    shared::WoundFrame frame;
+    ReflectanceLut lut;
+    shared::LutAxes axes; // of the lut
+    double day = 0;
 };
 
 struct ForwardInput
 {
     const Head& head;
     std::span<const PlacedWound> wounds; // at most shared::MAX_WOUNDS
-    ReflectanceLut lut;                  // used when there are wounds
-    engine::ImageId shadow;              // used when shading.shadow
-    std::span<const shared::Light> lights;
+    std::span<const wound::Light> lights; // at most shared::MAX_LIGHTS; the first casts the shadow
+    std::optional<shared::Shadow> shadow; // none: no shadow is cast
+    engine::ImageId shadow_depth;         // used with `shadow`
 };
 
-/// Adds one raster pass at the given size; the result is linear radiance, RGBA16F, alpha 1 on the head and 0 beside it.
+/// Adds one raster pass that runs every frame; the result is linear radiance, RGBA16F, alpha 1 on the head and 0 beside it.
+/// `samples` is 1 or 4; with 4 the result is resolved.
 engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, const shared::View& view, const Shading& shading,
                             const engine::ImageDesc& target);
 

@@ -10,8 +10,7 @@
 namespace passes {
 namespace {
 
-/// How far from the patch's plane skin may lie and still receive the wound, in half widths: a nose's flank, not the far cheek.
-constexpr double reach = 0.9;
+constexpr double reach = Anchor::reach;
 
 std::array<glm::vec3, 3> corners_of(const engine::Model& head, std::size_t first)
 {

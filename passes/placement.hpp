@@ -40,6 +40,9 @@ std::vector<NamedPlace> named_places();
 /// An orthonormal frame on the skin. The patch's texel (u right, v down) maps to centre + half_width (u right + v down).
 struct Anchor
 {
+    /// How far from the patch's plane skin may lie and still receive the wound, in half widths: a nose's flank, not the far cheek.
+    static constexpr double reach = 0.9;
+
     glm::dvec3 centre{0.0}, right{1, 0, 0}, down{0, -1, 0}, normal{0, 0, 1};
     double half_width_m = 0.02; // of the patch
     FacePoint face;             // the centre in face coordinates

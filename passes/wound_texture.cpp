@@ -6,7 +6,7 @@
 
 namespace passes {
 
-WoundMaps upload_wound(engine::Device& device, const wound::Patch& patch)
+WoundMaps upload_wound(const engine::Device& device, const wound::Patch& patch)
 {
     cv::Mat4f color(patch.color.size());
     const cv::Mat sources[] = {patch.color, patch.opacity};
@@ -14,20 +14,23 @@ WoundMaps upload_wound(engine::Device& device, const wound::Patch& patch)
     cv::mixChannels(sources, 2, &color, 1, channels, 4);
     cv::Mat2f shape;
     cv::merge(std::vector<cv::Mat>{patch.depth_mm, patch.mask}, shape);
+    cv::Mat half_color, half_shape; // every device filters half floats
+    color.convertTo(half_color, CV_16F);
+    shape.convertTo(half_shape, CV_16F);
 
     WoundMaps maps;
-    maps.color = std::make_unique<engine::Texture>(device, color);
-    maps.shape = std::make_unique<engine::Texture>(device, shape);
+    maps.color = std::make_unique<engine::Texture>(device, half_color, engine::Encoding::Linear, true, "day 0 color");
+    maps.shape = std::make_unique<engine::Texture>(device, half_shape, engine::Encoding::Linear, true, "day 0 shape");
     maps.width_mm = patch.width_mm;
     maps.size = patch.color.cols;
     return maps;
 }
 
-WoundTexture add_wound_texture(engine::Graph& graph, const std::string& name, const WoundMaps& maps, const wound::WoundDay& today)
+WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, const WoundMaps& maps, const wound::WoundDay& today)
 {
     const auto size = std::uint32_t(maps.size);
     const engine::ImageDesc desc{size, size, VK_FORMAT_R16G16B16A16_SFLOAT};
-    const WoundTexture texture{graph.image(name + " color", desc), graph.image(name + " state", desc), graph.image(name + " relief", desc)};
+    const WoundTexture texture{graph.image("wound_color" + suffix, desc), graph.image("wound_state" + suffix, desc), graph.image("wound_relief" + suffix, desc)};
 
     std::vector<shared::vec2> values;
     shared::WoundToday params{};
@@ -36,11 +39,11 @@ WoundTexture add_wound_texture(engine::Graph& graph, const std::string& name, co
     params.bed_recovery = float(today.bed_recovery);
     params.border_recovery = float(today.border_recovery);
 
-    engine::ComputePass& warp = graph.compute(name + " texture", "wound_texture.comp");
+    engine::ComputePass& warp = graph.compute("wound_texture" + suffix, "wound_texture.comp");
     warp.constant("RUNG", std::uint32_t(today.border_warp.rung));
     warp.constant("BED_APART", today.unhealed_ratio != today.border_ratio);
-    warp.sample("day0_color", graph.import(name + " day 0 color", *maps.color), engine::Sampler::LinearClampMips);
-    warp.sample("day0_shape", graph.import(name + " day 0 shape", *maps.shape), engine::Sampler::LinearClampMips);
+    warp.sample("day0_color", graph.import("day0_color" + suffix, *maps.color), engine::Sampler::LinearClampMips);
+    warp.sample("day0_shape", graph.import("day0_shape" + suffix, *maps.shape), engine::Sampler::LinearClampMips);
     warp.store("color", texture.color);
     warp.store("state", texture.state);
     warp.uniform("today", params);
@@ -48,7 +51,7 @@ WoundTexture add_wound_texture(engine::Graph& graph, const std::string& name, co
     warp.dispatch(size, size);
 
     const double texel_mm = maps.width_mm / maps.size;
-    engine::ComputePass& relief = graph.compute(name + " relief", "wound_relief.comp");
+    engine::ComputePass& relief = graph.compute("wound_relief" + suffix, "wound_relief.comp");
     relief.sample("state", texture.state);
     relief.store("relief", texture.relief);
     relief.uniform("params", shared::Relief{float(today.depth_scale), float(texel_mm), float(4.0 / texel_mm)}); // occlusion looks 4 mm far

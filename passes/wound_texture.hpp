@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/graph.hpp"
+#include "engine/device.hpp"
 #include "engine/texture.hpp"
 #include "wound/wound.hpp"
 
@@ -18,7 +19,7 @@ struct WoundMaps
     double width_mm = 0;                    // of the patch
     int size = 0;                           // texels a side
 };
-WoundMaps upload_wound(engine::Device& device, const wound::Patch& patch);
+WoundMaps upload_wound(const engine::Device& device, const wound::Patch& patch);
 
 /// Today's maps, RGBA16F.
 struct WoundTexture
@@ -28,7 +29,7 @@ struct WoundTexture
     engine::ImageId relief; // rg: slope of the depth along u and v, mm per mm; b: occlusion of the hollow, 1 open; a: depth today in mm
 };
 
-/// `name` tells the wounds of one scene apart, e.g. "wound 1".
-WoundTexture add_wound_texture(engine::Graph& graph, const std::string& name, const WoundMaps& maps, const wound::WoundDay& today);
+/// `suffix` tells the wounds of one scene apart in the names of passes and images: "" for the first, " 2" for the second.
+WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, const WoundMaps& maps, const wound::WoundDay& today);
 
 } // namespace passes

@@ -16,7 +16,7 @@ layout(constant_id = 2) const bool TRANSLUCENCY = true;
 layout(constant_id = 3) const bool WARD = true;
 layout(constant_id = 4) const bool NORMAL_MAP = true;
 layout(constant_id = 5) const bool SHADOW = true;
-layout(constant_id = 6) const bool OCCLUSION = true; // ambient light and its occlusion
+layout(constant_id = 6) const bool AMBIENT = true; // ambient light, dimmed by occlusion
 layout(constant_id = 7) const uint WARD_MODEL = WARD_BOUNDED;
 layout(constant_id = 8) const uint TRANSLUCENCY_MODEL = TRANSLUCENCY_BOUNDED;
 layout(constant_id = 9) const uint BLEND_MODEL = BLEND_CORRECTED;
@@ -38,8 +38,9 @@ layout(binding = 7) uniform sampler2D occlusion_map;
 layout(binding = 8) uniform sampler2D wound_color[MAX_WOUNDS];
 layout(binding = 9) uniform sampler2D wound_state[MAX_WOUNDS];
 layout(binding = 10) uniform sampler2D wound_relief[MAX_WOUNDS];
-layout(binding = 11) uniform sampler2D reflectance_lut;
+layout(binding = 11) uniform sampler2D reflectance_lut[MAX_WOUNDS];
 layout(binding = 12) uniform sampler2D shadow_map;
+layout(scalar, binding = 13) uniform Shadow_ { Shadow shadow; };
 
 void main()
 {
@@ -54,10 +55,10 @@ void main()
         const vec3 mapped = texture(normal_map, v_uv).xyz * 2 - 1;
         skin.normal = normalize_or(frame * vec3(mapped.xy * part.normal_scale, max(mapped.z, 0.05)), geometric);
     }
-    if (OCCLUSION)
+    if (AMBIENT)
         skin.occlusion = texture(occlusion_map, v_uv).r;
     for (uint i = 0; i < WOUNDS; ++i)
-        add_wound(BLEND_MODEL, wounds[i], wound_color[i], wound_state[i], wound_relief[i], reflectance_lut, v_position, geometric, skin);
+        add_wound(BLEND_MODEL, wounds[i], wound_color[i], wound_state[i], wound_relief[i], reflectance_lut[i], v_position, geometric, skin);
 
     frame = frame_of(bend_to_viewer(skin.normal, to_viewer), v_tangent);
     ShadingParams params = shading;
@@ -67,7 +68,7 @@ void main()
     params.rho_ts *= part.translucency * (TRANSLUCENCY_MODEL == TRANSLUCENCY_PUBLISHED ? 1 : skin.occlusion);
 
     const vec3 local_viewer = to_viewer * frame;
-    vec3 radiance = OCCLUSION ? params.ambient * skin.occlusion * skin.albedo : vec3(0);
+    vec3 radiance = AMBIENT ? params.ambient * skin.occlusion * skin.albedo : vec3(0);
     for (uint i = 0; i < lighting.count; ++i)
     {
         const LightSample light = sample_light(lighting.light[i], v_position);
@@ -78,7 +79,7 @@ void main()
         if (WARD)
             direct += specular(WARD_MODEL, params, light, local_light, local_viewer);
         if (SHADOW && i == 0)
-            direct *= shadow_visibility(shadow_map, v_position, geometric);
+            direct *= shadow_visibility(shadow, shadow_map, v_position, geometric, light.direction);
         radiance += direct;
         if (TRANSLUCENCY)
             radiance += subsurface_diffuse(TRANSLUCENCY_MODEL, params, light, skin.albedo);

@@ -3,7 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/frame.h"
 
-layout(std430, binding = 0) uniform View_ { View view; };
+layout(scalar, binding = 0) uniform View_ { View view; };
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

@@ -1,5 +1,4 @@
 // Projects wounds onto the skin in object space: texture seams do not matter, and many wounds can sit on one head.
-// The including shader declares the samplers wound_color, wound_state, wound_relief and reflectance_lut.
 #ifndef LIB_WOUND_PROJECTION_GLSL
 #define LIB_WOUND_PROJECTION_GLSL
 #include "lib/blend.glsl"
@@ -40,7 +39,7 @@ void add_wound(uint blend_model, WoundFrame w, sampler2D color_map, sampler2D st
     const vec4 state = patch_sample(state_map, uv, dx, dy);
     const vec4 relief = patch_sample(relief_map, uv, dx, dy);
 
-    const vec3 reflectance = textureLod(lut, vec2(max(state.r, 0) * w.lut_per_mm + w.lut_first, w.lut_day), 0).rgb;
+    const vec3 reflectance = textureLod(lut, lut_uv(w.lut, state.r, w.day, vec2(textureSize(lut, 0))), 0).rgb;
     skin.albedo = mix(skin.albedo, recovering_color(blend_model, color.rgb, reflectance, skin.albedo, state.g), opacity);
 
     const float fresh = 1 - clamp(state.g, 0, 1); // how much of the injury is still to be seen

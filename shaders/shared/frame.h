@@ -2,6 +2,7 @@
 #ifndef SHARED_FRAME_H
 #define SHARED_FRAME_H
 #include "glsl.h"
+#include "reflectance_lut.h"
 #ifdef __cplusplus
 namespace shared {
 #endif
@@ -21,18 +22,17 @@ struct View
 /// Where a wound's patch lies on the head, and how far it is today.
 struct WoundFrame
 {
-    vec3 centre;          // metres
-    float half_width;     // metres, of the patch
-    vec3 right;           // unit
-    float lut_day;        // today, as the LUT's v coordinate
-    vec3 down;            // unit
-    float reach;          // skin further from the patch's plane than this receives nothing; in half widths
-    vec3 normal;          // unit
-    float lut_first;      // injury depth in mm -> the LUT's u coordinate: lut_first + lut_per_mm * depth
-    float lut_per_mm;
+    vec3 centre;      // metres
+    float half_width; // metres, of the patch
+    vec3 right;       // unit
+    float reach;      // skin further from the patch's plane than this receives nothing; in half widths
+    vec3 down;        // unit
+    float day;
+    vec3 normal;      // unit
+    LutAxes lut;      // of the wound's reflectance table
 };
 
 #ifdef __cplusplus
-}
+} // namespace shared
 #endif
 #endif

@@ -1,0 +1,169 @@
+#include "apps/stage.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+
+#include "engine/image_io.hpp"
+#include "wound/input_error.hpp"
+#include "wound/skin_match.hpp"
+#include "wound/synthetic.hpp"
+
+namespace app {
+namespace {
+
+constexpr std::size_t lut_rows = 64;
+
+glm::dvec3 face_middle(const passes::FaceFrame& face) { return face.nose_tip + face.unit_m * glm::dvec3(0, 0.1, -0.45); }
+/// Crown to chin, about; the object of the paper's set-up.
+double head_height(const passes::FaceFrame& face) { return 1.65 * face.unit_m; }
+
+glm::dvec3 unit_towards(const Direction& from)
+{
+    const double azimuth = glm::radians(from.azimuth_deg), elevation = glm::radians(from.elevation_deg);
+    return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation), std::cos(azimuth) * std::cos(elevation)};
+}
+
+cv::Vec3d to_cv(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+wound::Light make_light(const LightScene& scene, const passes::FaceFrame& face)
+{
+    const glm::dvec3 towards = unit_towards(scene.from), middle = face_middle(face);
+    wound::Light light;
+    light.kind = scene.directional ? wound::LightKind::Directional : wound::LightKind::Point;
+    light.position = to_cv(middle + scene.distance_m * towards);
+    light.direction = to_cv(towards);
+    light.strength = cv::Vec3d(scene.color[0], scene.color[1], scene.color[2]) * scene.intensity;
+    light.reference_distance_m = std::max(scene.distance_m, 1e-3);
+    light.translucency_distance = wound::paper_distance(head_height(face), scene.distance_m);
+    return light;
+}
+
+wound::Photograph read_photograph(const WoundScene& scene)
+{
+    if (scene.photo.empty())
+    {
+        wound::SyntheticWound synthetic;
+        synthetic.shape = scene.kind == "laceration" ? wound::WoundShape::laceration
+                          : scene.kind == "avulsion" ? wound::WoundShape::avulsion
+                                                     : wound::WoundShape::abrasion;
+        synthetic.seed = scene.seed;
+        return wound::synthesize(synthetic);
+    }
+    wound::Photograph photograph{engine::read_rgb(scene.photo), {}};
+    if (!scene.mask.empty())
+        photograph.mask = engine::read_mask(scene.mask);
+    return photograph;
+}
+
+} // namespace
+
+std::filesystem::path default_head()
+{
+    if (const char* named = std::getenv("CICATRIX_HEAD"); named != nullptr && *named != '\0')
+        return named;
+    const char* cache = std::getenv("XDG_CACHE_HOME");
+    const char* home = std::getenv("HOME");
+    const std::filesystem::path base = cache != nullptr && *cache != '\0' ? std::filesystem::path(cache)
+                                                                          : std::filesystem::path(home != nullptr ? home : ".") / ".cache";
+    return base / "cicatrix" / "head.glb";
+}
+
+Stage::Props Stage::prepare(const Scene& scene)
+{
+    Props props;
+    const std::filesystem::path file = scene.head.empty() ? default_head() : scene.head;
+    if (scene.head.empty() && !std::filesystem::exists(file))
+        throw cicatrix::InputError(file.string(), "the default head has not been made yet",
+                                   "run ./run setup (needs the network once), or give a head of your own with --head FILE.glb");
+    props.head = engine::load_model(file);
+    engine::normalise_size(props.head);
+    for (const std::string& note : props.head.notes)
+        props.notes.push_back(fmt::format("{}: {}", file.string(), note));
+    props.face = passes::find_face(props.head);
+    props.tissue = scene.tissue == "table1" ? wound::table1() : wound::read_tissue(scene.tissue);
+    const std::uint32_t skin = passes::skin_material(props.head);
+
+    for (std::size_t i = 0; i < scene.wounds.size(); ++i)
+    {
+        const WoundScene& wound = scene.wounds[i];
+        const std::string where = wound.photo.empty() ? fmt::format("wound {}", i + 1) : wound.photo.string();
+        wound::Preparation preparation;
+        preparation.width_mm = wound.width_mm;
+        preparation.depth_factor = wound.depth_factor;
+        wound::PreparedWound prepared = wound::prepare(read_photograph(wound), preparation, where);
+        const passes::Anchor anchor = passes::anchor_wound(props.head, props.face, wound.place, prepared.patch.width_mm, wound.roll_deg, where + ": at");
+        prepared.patch = wound::match_to_skin(prepared.patch, passes::skin_under(props.head, skin, anchor, 128));
+        props.wounds.push_back(std::move(prepared));
+        props.anchors.push_back(anchor);
+    }
+    return props;
+}
+
+Stage::Stage(const engine::Device& device, const Scene& scene, Props props)
+    : scene_(scene), props_(std::move(props)), head_(passes::upload_head(device, props_.head, props_.anchors))
+{
+    const double last_day = std::max(1.0, *std::ranges::max_element(scene_.days));
+    for (std::size_t i = 0; i < props_.wounds.size(); ++i)
+    {
+        std::vector<wound::TissueDay> rows;
+        for (std::size_t row = 0; row < lut_rows; ++row)
+        {
+            const double day = passes::lut_row_day(row, lut_rows, last_day);
+            rows.push_back(wound::restored_skin(props_.tissue, wound::healing_at(scene_.wounds[i].healing, day).depth_scale));
+        }
+        wounds_.push_back({props_.anchors[i], passes::upload_wound(device, props_.wounds[i].patch), passes::lut_tissue(rows, last_day)});
+    }
+    for (const LightScene& light : scene_.lights)
+        lights_.push_back(make_light(light, props_.face));
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+    {
+        const std::string where = fmt::format("scene: /lights/{}", i);
+        wound::check_light(lights_[i], where);
+        wound::check_shading(scene_.shading.model, wound::translucency_distances(lights_[i], to_cv(face_middle(props_.face)), head_height(props_.face)),
+                             "scene: /shading");
+    }
+}
+
+std::vector<wound::WoundDay> Stage::wounds_on(double day) const
+{
+    std::vector<wound::WoundDay> today;
+    for (std::size_t i = 0; i < props_.wounds.size(); ++i)
+        today.push_back(wound::wound_at(props_.wounds[i], scene_.wounds[i].healing, day));
+    return today;
+}
+
+passes::Camera Stage::camera() const
+{
+    const double half_height = 1.06 * props_.face.unit_m; // from the neck to the crown
+    const double distance = scene_.camera.distance_m > 0 ? scene_.camera.distance_m
+                                                         : half_height / std::tan(glm::radians(scene_.camera.fov_deg) / 2);
+    const glm::dvec3 target = face_middle(props_.face);
+    return {target + distance * unit_towards(scene_.camera.from), target, scene_.camera.fov_deg};
+}
+
+passes::Camera Stage::close_up(std::size_t wound) const
+{
+    if (wound >= props_.anchors.size())
+        return camera();
+    const passes::Anchor& anchor = props_.anchors[wound];
+    // From a little above the surface's normal towards the front, so that the hollow can be seen as one.
+    const glm::dvec3 towards = glm::normalize(anchor.normal + 0.35 * unit_towards(scene_.camera.from));
+    constexpr double fov_deg = 12;
+    const double distance = 0.95 * anchor.half_width_m / std::tan(glm::radians(fov_deg) / 2);
+    return {anchor.centre + distance * towards, anchor.centre, fov_deg};
+}
+
+passes::FrameImages Stage::declare(engine::Graph& graph, const std::vector<wound::WoundDay>& today, const passes::Camera& camera,
+                                   const passes::Shading& shading, std::array<std::uint32_t, 2> size) const
+{
+    passes::FrameInput input{head_, wounds_, today, lights_, camera, shading};
+    input.reflectance = scene_.reflectance_model;
+    input.width = size[0];
+    input.height = size[1];
+    input.samples = scene_.samples;
+    input.exposure = float(scene_.exposure_stops);
+    return passes::add_frame(graph, input);
+}
+
+} // namespace app

@@ -1,0 +1,133 @@
+#include "passes/forward.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "passes/shading.hpp"
+#include "shaders/shared/part.h"
+
+namespace passes {
+namespace {
+
+shared::vec3 to_vec3(const glm::dvec3& v) { return shared::vec3(v); }
+
+struct WoundUniform
+{
+    shared::WoundFrame frames[shared::MAX_WOUNDS];
+};
+
+WoundUniform wound_frames(std::span<const PlacedWound> wounds)
+{
+    WoundUniform uniform{};
+    for (std::size_t i = 0; i < wounds.size(); ++i)
+    {
+        const Anchor& anchor = wounds[i].anchor;
+        uniform.frames[i] = {to_vec3(anchor.centre), float(anchor.half_width_m), to_vec3(anchor.right), float(Anchor::reach),
+                             to_vec3(anchor.down),   float(wounds[i].day),       to_vec3(anchor.normal), wounds[i].axes};
+    }
+    return uniform;
+}
+
+shared::Part part_params(const HeadPart& part)
+{
+    shared::Part params{part.albedo_factor, part.normal_scale, 1, 1, 1};
+    switch (part.surface)
+    {
+    case Surface::Skin: break;
+    case Surface::Eye: // a wet, smooth ball: the highlight's energy in a lobe a fifth as wide
+        params.slope = 0.2f;
+        params.specular = 0.5f;
+        params.translucency = 0.5f;
+        break;
+    case Surface::Hair:
+    case Surface::Other: params.specular = 0; break;
+    }
+    return params;
+}
+
+/// Every sampler of the shader must be given; a draw without wounds gets the head's white texel instead.
+void give_wounds(engine::Draw& draw, const ForwardInput& input, bool wounded, engine::ImageId blank)
+{
+    std::vector<engine::ImageId> color(shared::MAX_WOUNDS, blank), state = color, relief = color, lut = color;
+    for (std::size_t i = 0; wounded && i < input.wounds.size(); ++i)
+    {
+        color[i] = input.wounds[i].texture.color;
+        state[i] = input.wounds[i].texture.state;
+        relief[i] = input.wounds[i].texture.relief;
+        lut[i] = input.wounds[i].lut.reflectance;
+    }
+    draw.constant("WOUNDS", wounded ? std::uint32_t(input.wounds.size()) : 0u);
+    draw.sample("wound_color", color);
+    draw.sample("wound_state", state);
+    draw.sample("wound_relief", relief);
+    draw.sample("reflectance_lut", lut);
+}
+
+} // namespace
+
+shared::View make_view(const Camera& camera, const Head& head, double aspect)
+{
+    const glm::dvec3 low(head.min), high(head.max);
+    const double radius = 0.5 * glm::distance(low, high);
+    const double distance = glm::distance(camera.eye, 0.5 * (low + high));
+    const double near = std::max(distance - radius, 0.02), far = distance + radius + 0.1;
+    glm::dmat4 projection = glm::perspective(glm::radians(camera.fov_deg), aspect, near, far);
+    projection[1][1] *= -1; // Vulkan's y points down
+    const glm::dvec3 sight = camera.target - camera.eye;
+    const glm::dvec3 up = std::abs(sight.y) > 0.999 * glm::length(sight) ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+    return {shared::mat4(projection * glm::lookAt(camera.eye, camera.target, up)), to_vec3(camera.eye)};
+}
+
+engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, const shared::View& view, const Shading& shading,
+                            const engine::ImageDesc& target)
+{
+    assert(input.wounds.size() <= shared::MAX_WOUNDS);
+    const engine::ImageDesc single{target.width, target.height, VK_FORMAT_R16G16B16A16_SFLOAT, 1};
+    const engine::ImageId radiance = graph.image("radiance", single);
+    engine::RasterPass& pass = graph.raster("forward");
+    if (target.samples > 1)
+        pass.color(graph.image("radiance_msaa", {target.width, target.height, single.format, target.samples}), {0, 0, 0, 0}, radiance);
+    else
+        pass.color(radiance, {0, 0, 0, 0});
+    pass.depth(graph.image("depth", {target.width, target.height, VK_FORMAT_D32_SFLOAT, target.samples}));
+    pass.every_frame();
+
+    pass.constant("LAMBERT", shading.lambert);
+    pass.constant("TRANSLUCENCY", shading.translucency);
+    pass.constant("WARD", shading.ward);
+    pass.constant("NORMAL_MAP", shading.normal_map);
+    pass.constant("SHADOW", input.shadow.has_value());
+    pass.constant("AMBIENT", shading.ambient != glm::vec3(0));
+    pass.constant("WARD_MODEL", std::uint32_t(shading.model.ward));
+    pass.constant("TRANSLUCENCY_MODEL", std::uint32_t(shading.model.translucency));
+    pass.constant("BLEND_MODEL", std::uint32_t(shading.blend));
+    pass.uniform("view", view);
+    pass.uniform("shading", shading_params(shading.model, shading.ambient));
+    pass.uniform("lighting", lighting(input.lights));
+    pass.uniform("Wounds_", wound_frames(input.wounds));
+    pass.uniform("shadow", input.shadow.value_or(shared::Shadow{}));
+    const engine::ImageId blank = graph.import("white", *input.head.white);
+    pass.sample("shadow_map", input.shadow ? input.shadow_depth : blank, engine::Sampler::NearestClamp);
+
+    for (std::size_t i = 0; i < input.head.parts.size(); ++i)
+    {
+        const HeadPart& part = input.head.parts[i];
+        engine::Draw& draw = pass.draw("forward");
+        draw.mesh = input.head.mesh.get();
+        draw.first_index = part.first_index;
+        draw.index_count = part.index_count;
+        draw.cull_back_faces = !part.double_sided;
+        draw.blend = part.blend;
+        draw.depth_write = !part.blend;
+        draw.uniform("part", part_params(part));
+        draw.sample("albedo_map", graph.import(fmt::format("albedo {}", i), *part.albedo), engine::Sampler::LinearRepeatMips);
+        draw.sample("normal_map", graph.import(fmt::format("normal {}", i), *part.normal), engine::Sampler::LinearRepeatMips);
+        draw.sample("occlusion_map", graph.import(fmt::format("occlusion {}", i), *part.occlusion), engine::Sampler::LinearRepeatMips);
+        give_wounds(draw, input, part.wounded, blank);
+    }
+    return radiance;
+}
+
+} // namespace passes
