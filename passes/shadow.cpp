@@ -1,0 +1,84 @@
+#include "passes/shadow.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace passes {
+namespace {
+
+std::array<glm::dvec3, 8> corners(const glm::vec3& box_min, const glm::vec3& box_max)
+{
+    std::array<glm::dvec3, 8> result;
+    for (unsigned i = 0; i < 8; ++i)
+        result[i] = {i & 1 ? box_max.x : box_min.x, i & 2 ? box_max.y : box_min.y,
+                     i & 4 ? box_max.z : box_min.z};
+    return result;
+}
+
+// Looks along `forward`; the roll is free and follows the world's up or, for a light overhead, its back.
+glm::dmat4 light_view(const glm::dvec3& eye, const glm::dvec3& forward)
+{
+    const glm::dvec3 up = std::abs(forward.y) > 0.99 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+    return glm::lookAtRH(eye, eye + forward, up);
+}
+
+} // namespace
+
+std::optional<shared::Shadow> fit_shadow(const wound::Light& light, const glm::vec3& box_min,
+                                         const glm::vec3& box_max)
+{
+    const glm::dvec3 center = glm::dvec3(box_min + box_max) * 0.5;
+    const double radius = glm::length(glm::dvec3(box_max) - center);
+    const glm::dvec3 position(light.position[0], light.position[1], light.position[2]);
+    const glm::dvec3 direction(light.direction[0], light.direction[1], light.direction[2]);
+    const bool parallel = light.kind == wound::LightKind::Directional;
+
+    const glm::dvec3 eye = parallel ? center + 2 * radius * direction : position;
+    const double distance = glm::length(center - eye);
+    if (!(radius > 0) || distance < 1.2 * radius) // wider than about 110 degrees
+        return std::nullopt;
+    const glm::dmat4 view = light_view(eye, (center - eye) / distance);
+
+    // Half width and height at unit depth (at any depth for a parallel light), and the span of depths.
+    double half = 0, near = distance, far = distance;
+    for (const glm::dvec3& corner : corners(box_min, box_max)) {
+        const glm::dvec4 seen = view * glm::dvec4(corner, 1);
+        const double depth = -seen.z, spread = parallel ? 1 : depth;
+        half = std::max({half, std::abs(seen.x) / spread, std::abs(seen.y) / spread});
+        near = std::min(near, depth);
+        far = std::max(far, depth);
+    }
+    const double margin = 0.01 * radius;
+    near = std::max(near - margin, 0.05 * distance);
+    far += margin;
+    half *= 1 + 4.0 / shadow_size; // room for the filter beyond the outermost texel
+
+    glm::dmat4 projection =
+        parallel ? glm::orthoRH_ZO(-half, half, -half, half, near, far)
+                 : glm::frustumRH_ZO(-half * near, half * near, -half * near, half * near, near, far);
+    projection[1][1] = -projection[1][1]; // Vulkan's y points down
+    return shared::Shadow{.clip_from_world = glm::mat4(projection * view),
+                          .texel = static_cast<float>(2 * half / shadow_size)};
+}
+
+engine::ImageId add_shadow(engine::Graph& graph, const shared::Shadow& shadow, const engine::MeshBuffer& mesh,
+                           std::span<const engine::Primitive> casters)
+{
+    const engine::ImageId depth =
+        graph.image("shadow depth", {shadow_size, shadow_size, VK_FORMAT_D32_SFLOAT});
+    engine::RasterPass& pass = graph.raster("shadow");
+    pass.depth(depth);
+    pass.uniform("ShadowBlock", shadow);
+    for (const engine::Primitive& caster : casters) {
+        engine::Draw& draw = pass.draw("shadow");
+        draw.mesh = &mesh;
+        draw.first_index = caster.first_index;
+        draw.index_count = caster.index_count;
+        draw.cull_back_faces = false; // a bust is open below, and thin sheets have one side
+    }
+    return depth;
+}
+
+} // namespace passes

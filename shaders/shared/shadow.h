@@ -1,0 +1,18 @@
+// The shadow of the key light: where a point of the world lies in the light's depth image.
+#ifndef SHARED_SHADOW_H
+#define SHARED_SHADOW_H
+#include "glsl.h"
+#ifdef __cplusplus
+namespace shared {
+#endif
+
+struct Shadow
+{
+    mat4 clip_from_world; // Vulkan clip space of the light: x right, y down, depth 0..1
+    float texel;          // width of a texel, m, per unit of clip w: at clip w = 1 for a parallel light
+};
+
+#ifdef __cplusplus
+} // namespace shared
+#endif
+#endif

@@ -1,0 +1,22 @@
+// Linear light to 8-bit sRGB: exposure, an optional roll-off of highlights, the exact sRGB curve.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "lib/color.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const bool shoulder = true;
+layout(binding = 0) uniform sampler2D hdr;
+layout(binding = 1, rgba8) uniform writeonly image2D encoded;
+layout(binding = 2, scalar) uniform ExposureBlock { float exposure_factor; }; // multiplies linear light
+
+void main()
+{
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, imageSize(encoded))))
+        return;
+    vec3 linear = finite_radiance(texelFetch(hdr, texel, 0).rgb) * exposure_factor;
+    if (shoulder)
+        linear = soft_shoulder(linear);
+    imageStore(encoded, texel, vec4(srgb_from_linear(min(linear, 1.0)), 1.0));
+}
