@@ -1,0 +1,40 @@
+// Bakes the diffuse reflectance of healing tissue into a table over injury depth and day, which the forward
+// pass samples through lut_uv (shaders/shared/reflectance_lut.h).
+#pragma once
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "engine/graph.hpp"
+#include "shaders/shared/reflectance_lut.h"
+#include "wound/healing_tissue.hpp"
+#include "wound/reflectance.hpp"
+
+namespace passes {
+
+/// The tissue of every row as the shader reads it. Make it when the tissue or the healing curve changes and
+/// keep it.
+struct LutTissue
+{
+    std::vector<shared::LutLayer> layers;
+    std::vector<shared::LutDay> days; // one per row
+    shared::LutParameters parameters;
+};
+
+/// Day of a row, for those who fill `rows`.
+double lut_row_day(std::size_t row, std::size_t rows, double last_day);
+
+/// `rows`: the tissue on lut_row_day(0), (1), ..., with three channels and the same number of intact layers
+/// each.
+LutTissue lut_tissue(std::span<const wound::TissueDay> rows, double last_day);
+
+struct ReflectanceLut
+{
+    engine::ImageId reflectance; // linear RGB, >= 0 and finite; u = injury depth, v = day
+};
+
+/// Adds one compute pass `name`, which the graph skips while the tissue stands. Width: texels over depth.
+ReflectanceLut add_reflectance_lut(engine::Graph& graph, std::string_view name, const LutTissue& tissue,
+                                   wound::Rung rung, std::uint32_t width = 64);
+
+} // namespace passes

@@ -1,0 +1,80 @@
+// One texel of the reflectance table: the colour of the tissue that stands on a day where the injury took a depth.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shared/reflectance_lut.h"
+#include "lib/reflectance.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const int MODEL = TWO_STREAM;
+
+layout(scalar, set = 0, binding = 0) uniform Parameters { LutParameters parameters; };
+layout(scalar, set = 0, binding = 1) readonly buffer Layers { LutLayer layers[]; };
+layout(scalar, set = 0, binding = 2) readonly buffer Days { LutDay days[]; };
+layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D lut_out;
+
+const uint FIRST_INTACT = 2;
+
+// Thickness and index of layer i of the day's list where the injury took `injury_mm`; `removed_mm` is what is still to be taken away.
+// As layers_at in wound/healing_tissue.cpp.
+LutLayer layer_at(uint base, uint i, LutDay day, float injury_mm, inout float removed_mm)
+{
+    LutLayer layer = layers[base + i];
+    if (i == 1)
+        layer.thickness_mm = day.regrown_ratio * injury_mm;
+    if (i < FIRST_INTACT)
+        return layer;
+    float whole = layer.thickness_mm, taken = min(removed_mm, whole);
+    removed_mm -= taken;
+    layer.thickness_mm = whole - taken;
+    if (i + 1 < parameters.layers_per_day && layer.thickness_mm > 0.0)
+        layer.n = mix(layers[base + i + 1].n, layer.n, min(4.0 * layer.thickness_mm / whole, 1.0));
+    return layer;
+}
+
+void main()
+{
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(lut_out);
+    if (any(greaterThanEqual(texel, size)))
+        return;
+    uint base = texel.y * parameters.layers_per_day;
+    LutDay day = days[texel.y];
+    float injury_mm = lut_value(texel.x, size.x, parameters.axes.deepest_mm);
+    float removed_mm = min(day.missing_ratio + day.regrown_ratio, 1.0) * injury_mm;
+
+    // Each layer is finished when the index of the next one is known: `pending` is the layer above.
+    float n_first = parameters.n_above, n = parameters.n_above;
+    Element stack = Element(vec3(0.0), vec3(0.0), vec3(1.0), vec3(1.0));
+    vec3 paper_sum = vec3(0.0), incoming = vec3(1.0);
+    LutLayer pending;
+    bool any_layer = false;
+    for (uint i = 0; i <= parameters.layers_per_day; ++i) {
+        bool end = i == parameters.layers_per_day;
+        LutLayer layer;
+        if (!end) {
+            layer = layer_at(base, i, day, injury_mm, removed_mm);
+            if (layer.thickness_mm <= 0.0)
+                continue;
+        }
+        float n_next = end ? parameters.n_below : layer.n;
+        if (MODEL >= TWO_STREAM_PAPER) {
+            stack = over(stack, boundary(n, n_next));
+            if (!end)
+                stack = over(stack, tissue_slab(MODEL, layer.sigma_a, layer.sigma_s_reduced, layer.g, layer.thickness_mm));
+        } else if (any_layer) {
+            vec3 reflected, transmitted;
+            paper_layer(MODEL, pending.sigma_a, pending.sigma_s_reduced * backward_fraction(pending.g), pending.thickness_mm,
+                        diffuse_fresnel(n, n_next), reflected, transmitted);
+            paper_sum += incoming * reflected;
+            incoming *= transmitted;
+        }
+        if (!any_layer)
+            n_first = n_next;
+        any_layer = any_layer || !end;
+        n = n_next;
+        pending = layer;
+    }
+    vec3 color = MODEL >= TWO_STREAM_PAPER ? stack.r_top - diffuse_fresnel(parameters.n_above, n_first)
+                                           : paper_top_factor(MODEL, parameters.n_above, n_first) * paper_sum;
+    imageStore(lut_out, texel, vec4(displayable(color), 1.0));
+}

@@ -1,0 +1,66 @@
+// The reflectance table: what it is baked from, and how its texels map to injury depth and day, for baker and sampler alike.
+#ifndef SHARED_REFLECTANCE_LUT_H
+#define SHARED_REFLECTANCE_LUT_H
+#include "glsl.h"
+#ifdef __cplusplus
+#include <cmath>
+#define SHARED_FUNCTION inline
+namespace shared {
+using std::sqrt;
+#else
+#define SHARED_FUNCTION
+#endif
+
+struct LutLayer
+{
+    vec3 sigma_a;         // mm^-1
+    vec3 sigma_s_reduced; // mm^-1
+    float g;
+    float n;
+    float thickness_mm; // of the intact layer, or of the cover
+};
+
+// One row of the table. Its layers are: cover, regrown tissue, then the intact layers from the top down.
+struct LutDay
+{
+    float missing_ratio; // of the injury's depth: nothing there
+    float regrown_ratio; // of the injury's depth: filled with regrown tissue
+};
+
+// Ranges of the table's axes: u is the depth the injury took on day 0, v the day.
+struct LutAxes
+{
+    float deepest_mm;
+    float last_day;
+};
+
+struct LutParameters
+{
+    LutAxes axes;
+    float n_above;
+    float n_below;
+    uint layers_per_day; // cover and regrown tissue included
+};
+
+// Both axes are quadratic: the thin upper layers and the first days have most of the texels. The ends lie on texel centres.
+SHARED_FUNCTION float lut_value(float texel, float size, float last)
+{
+    float t = size > 1.0f ? texel / (size - 1.0f) : 0.0f;
+    return t * t * last;
+}
+
+SHARED_FUNCTION float lut_coordinate(float value, float size, float last)
+{
+    float t = last > 0.0f && value > 0.0f ? sqrt(value < last ? value / last : 1.0f) : 0.0f;
+    return (t * (size - 1.0f) + 0.5f) / size;
+}
+
+SHARED_FUNCTION vec2 lut_uv(LutAxes axes, float injury_depth_mm, float day, vec2 size)
+{
+    return vec2(lut_coordinate(injury_depth_mm, size.x, axes.deepest_mm), lut_coordinate(day, size.y, axes.last_day));
+}
+
+#ifdef __cplusplus
+} // namespace shared
+#endif
+#endif

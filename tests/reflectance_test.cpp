@@ -1,0 +1,366 @@
+// The analytic rungs against published values and against what must hold for any tissue.
+#include "wound/reflectance.hpp"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <random>
+
+#include "wound/fresnel.hpp"
+#include "wound/healing_tissue.hpp"
+#include "wound/input_error.hpp"
+
+using namespace wound;
+using testing::DoubleNear;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+auto rgb(double r, double g, double b, double tolerance)
+{
+    return ElementsAre(DoubleNear(r, tolerance), DoubleNear(g, tolerance), DoubleNear(b, tolerance));
+}
+
+// Log-uniform over the allowed range, with the ends and zero drawn often.
+class Draw
+{
+  public:
+    explicit Draw(unsigned seed) : random_(seed) {}
+    double logarithmic(double low, double high)
+    {
+        const int corner = std::uniform_int_distribution(0, 9)(random_);
+        if (corner < 2)
+            return corner == 0 ? 0 : high;
+        return std::exp(uniform(std::log(low), std::log(high)));
+    }
+    double uniform(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
+    int integer(int low, int high) { return std::uniform_int_distribution(low, high)(random_); }
+    LayerOptics layer()
+    {
+        const double g = integer(0, 4) == 0 ? integer(-1, 1) : uniform(-1, 1);
+        const double n = integer(0, 4) == 0 ? integer(1, 3) : uniform(1, 3);
+        return {logarithmic(1e-9, 1e6), logarithmic(1e-9, 1e6), g, n, logarithmic(1e-9, 1e9)};
+    }
+    Stack stack()
+    {
+        Stack result{.layers = {}, .n_above = uniform(1, 3), .n_below = uniform(1, 3)};
+        for (int i = integer(1, 5); i > 0; --i)
+            result.layers.push_back(layer());
+        return result;
+    }
+
+  private:
+    std::mt19937 random_;
+};
+
+constexpr Rung two_streams[] = {Rung::TwoStream, Rung::TwoStreamPaper};
+constexpr Rung bounded[] = {Rung::TwoStream, Rung::TwoStreamPaper, Rung::Clamped, Rung::Exponential};
+
+void expect_same(const Response& a, const Response& b, double tolerance)
+{
+    EXPECT_NEAR(a.r, b.r, tolerance);
+    EXPECT_NEAR(a.t, b.t, tolerance);
+}
+
+} // namespace
+
+TEST(Fresnel, DiffuseReflectanceHasThePublishedValues)
+{
+    EXPECT_NEAR(diffuse_fresnel(1.1, 1), .194345, 1e-6);
+    EXPECT_NEAR(diffuse_fresnel(1.4, 1), .528985, 1e-6);
+    EXPECT_NEAR(diffuse_fresnel(1.5, 1), .596346, 1e-6);
+    EXPECT_NEAR(diffuse_fresnel(1, 1.4), .076812, 1e-6);
+    EXPECT_NEAR(diffuse_fresnel(1, 1.5), .091778, 1e-6);
+}
+
+TEST(Fresnel, ClosedFormIsTheIntegralOverTheHemisphere)
+{
+    for (double ratio : {1.0001, 1.01, 1.049, 1.051, 1.1, 1.333, 1.5, 2.0, 3.0}) {
+        // F_dr = 2 integral F(mu) mu dmu, by the midpoint rule in sqrt(1 - mu), which is smooth at grazing
+        // light.
+        double sum = 0;
+        const int count = 200000;
+        for (int i = 0; i < count; ++i) {
+            const double mu = (i + .5) / count * (i + .5) / count;
+            sum += 2 * fresnel(1, ratio, mu) * mu * 2 * (i + .5) / count / count;
+        }
+        EXPECT_NEAR(diffuse_fresnel(1, ratio), sum, 1e-8) << ratio;
+    }
+}
+
+TEST(Fresnel, IsContinuousAndNonNegativeTowardsEqualIndices)
+{
+    EXPECT_EQ(diffuse_fresnel(1.4, 1.4), 0);
+    for (double x = 1e-12; x < .2; x *= 1.3) {
+        EXPECT_GE(diffuse_fresnel(1, 1 + x), 0);
+        EXPECT_LE(diffuse_fresnel(1, 1 + x), x);
+        EXPECT_NEAR(diffuse_fresnel(1 + x, 1), 7 * x / 3, 10 * x * x + 3e-6); // from the series
+    }
+    EXPECT_NEAR(diffuse_fresnel(1, 1.05 - 1e-9), diffuse_fresnel(1, 1.05 + 1e-9), 1e-9);
+}
+
+TEST(Fresnel, PolynomialStaysWithinItsStatedError)
+{
+    for (double n = 1; n <= 2; n += .01)
+        EXPECT_NEAR(diffuse_fresnel_polynomial(n, 1), diffuse_fresnel(n, 1), .0017) << n;
+}
+
+TEST(BackwardFraction, HasTheValuesOfTheIntegralAndIsStable)
+{
+    EXPECT_NEAR(backward_fraction(.2), .353394, 1e-6);
+    EXPECT_NEAR(backward_fraction(.73), .073473, 1e-6);
+    EXPECT_NEAR(backward_fraction(.76), .063355, 1e-6);
+    EXPECT_DOUBLE_EQ(backward_fraction(0), .5);
+    EXPECT_DOUBLE_EQ(backward_fraction(1), 0);
+    EXPECT_DOUBLE_EQ(backward_fraction(-1), 1);
+    for (double g = 1e-16; g < 1; g *= 1.5)
+        EXPECT_NEAR(backward_fraction(g) + backward_fraction(-g), 1, 1e-15);
+}
+
+TEST(Published, ReproducesThePrintedEquationsOnTable1)
+{
+    EXPECT_THAT(diffuse_color(table1(), Rung::Published), rgb(.399, .211, .168, .001));
+    EXPECT_THAT(diffuse_color(table1(.2, 1, 9), Rung::Published), rgb(.43, -.05, -.21, .006));
+    EXPECT_THAT(diffuse_color(table1(.2, 4, 9), Rung::Published), rgb(.33, 1.80, 2.73, .02));
+}
+
+TEST(Published, ReportsEveryLayerAndChannelOutsideItsDomain)
+{
+    // Of the paper's thicknesses the epidermis in G and B, all of the dermis at 4 mm and the whole subcutis.
+    std::vector<OutsideDomain> thin = outside_domain(table1(.2, 1, 4)),
+                               thick = outside_domain(table1(.2, 4, 9));
+    ASSERT_EQ(thin.size(), 5u);
+    EXPECT_EQ(thin[0].layer, 0u);
+    EXPECT_EQ(thin[0].channel, 1u);
+    EXPECT_NEAR(thin[0].limit_mm, 1 / (1.44 + .353394 * 11), 1e-6);
+    EXPECT_EQ(thick.size(), 8u);
+    EXPECT_TRUE(outside_domain(table1(.01, .1, .1)).empty());
+}
+
+TEST(Rungs, ReachTheStatedColoursOnTable1)
+{
+    EXPECT_THAT(diffuse_color(table1(), Rung::Clamped), rgb(.373, .222, .188, .001));
+    EXPECT_THAT(diffuse_color(table1(), Rung::Exponential), rgb(.584, .400, .371, .001));
+    EXPECT_THAT(diffuse_color(table1(), Rung::TwoStreamPaper), rgb(.455, .211, .185, .001));
+    EXPECT_THAT(diffuse_color(table1(), Rung::TwoStream), rgb(.702, .227, .185, .001));
+}
+
+TEST(Rungs, StayWithinBoundsForAnyTissue)
+{
+    Draw draw(1);
+    for (int i = 0; i < 20000; ++i) {
+        const Stack stack = draw.stack();
+        for (Rung rung : bounded)
+            for (Incidence incidence : {Incidence::Diffuse, Incidence::Normal}) {
+                const Response x = reflectance(stack, rung, incidence);
+                ASSERT_TRUE(x.r >= 0 && x.t >= 0 && x.r + x.t <= 1 + 4e-16)
+                    << name(rung) << " " << x.r << " " << x.t;
+                ASSERT_GE(x.r_without_specular, 0);
+            }
+    }
+}
+
+TEST(Rungs, StayWithinBoundsAtAllCorners)
+{
+    for (double a : {0., 1e-300, 1e6})
+        for (double s : {0., 1e-300, 1e6})
+            for (double g : {-1., 0., 1e-9, 1.})
+                for (double n : {1., 1 + 1e-7, 3.})
+                    for (double d : {0., 1e-300, 1e9, infinity})
+                        for (Rung rung : bounded) {
+                            const Stack stack{
+                                .layers = {{a, s, g, n, d}, {s, a, g, 1.4, d}}, .n_above = 1, .n_below = 3};
+                            const Response x = reflectance(stack, rung);
+                            ASSERT_TRUE(x.r >= 0 && x.t >= 0 && x.r + x.t <= 1 + 4e-16)
+                                << name(rung) << " a " << a << " s " << s << " g " << g << " n " << n << " d "
+                                << d;
+                        }
+}
+
+TEST(TwoStream, LosesNothingWithoutAbsorption)
+{
+    Draw draw(2);
+    for (int i = 0; i < 5000; ++i) {
+        Stack stack = draw.stack();
+        for (LayerOptics& layer : stack.layers)
+            layer.sigma_a = 0;
+        for (Rung rung : two_streams) {
+            const Response x = reflectance(stack, rung);
+            ASSERT_NEAR(x.r + x.t, 1, 1e-12);
+        }
+    }
+}
+
+TEST(TwoStream, AccountsForAllLight)
+{
+    Draw draw(3);
+    for (int i = 0; i < 5000; ++i)
+        for (Rung rung : two_streams) {
+            const Response x = reflectance(draw.stack(), rung);
+            double sum = x.r + x.t;
+            for (double absorbed : x.absorbed)
+                sum += absorbed;
+            ASSERT_NEAR(sum, 1, 1e-12);
+        }
+}
+
+TEST(TwoStream, DoesNotSeeALayerSplitInTwo)
+{
+    Draw draw(4);
+    for (int i = 0; i < 5000; ++i) {
+        const Stack whole = draw.stack();
+        Stack split = whole;
+        const auto at = split.layers.begin() + draw.integer(0, static_cast<int>(split.layers.size()) - 1);
+        const double part = draw.uniform(0, 1);
+        LayerOptics upper = *at;
+        upper.thickness_mm *= part;
+        at->thickness_mm *= 1 - part;
+        split.layers.insert(at, upper);
+        for (Rung rung : two_streams)
+            expect_same(reflectance(whole, rung), reflectance(split, rung), 1e-10);
+    }
+}
+
+TEST(TwoStream, SeesNothingInALayerWithoutThickness)
+{
+    const Stack stack{.layers = {{10, 10, .5, 1.4, 0}}, .n_above = 1.4, .n_below = 1.4};
+    for (Rung rung : two_streams)
+        expect_same(reflectance(stack, rung), {.r = 0, .r_without_specular = 0, .t = 1, .absorbed = {}},
+                    1e-15);
+}
+
+TEST(TwoStream, IsContinuousAsACoefficientVanishes)
+{
+    for (double small : {1e-6, 1e-9, 1e-12, 1e-200})
+        for (Rung rung : two_streams) {
+            const auto one = [&](double a, double s, double d) {
+                return reflectance({.layers = {{a, s, .5, 1.4, d}}, .n_above = 1, .n_below = 1.4}, rung);
+            };
+            expect_same(one(small, 5, 2), one(0, 5, 2), 10 * small);
+            expect_same(one(1, small, 2), one(1, 0, 2), 10 * small);
+            expect_same(one(1, 5, small), one(1, 5, 0), 10 * small);
+        }
+}
+
+TEST(TwoStream, KubelkaMunkLimitsHold)
+{
+    EXPECT_DOUBLE_EQ(slab(2, 0, 3).r_top, 6. / 7);
+    EXPECT_DOUBLE_EQ(slab(2, 0, 3).t_down, 1. / 7);
+    EXPECT_DOUBLE_EQ(slab(0, 2, 3).t_down, std::exp(-6.));
+    EXPECT_EQ(slab(0, 2, 3).r_top, 0);
+    const double a = 1.5, b = std::sqrt(a * a - 1); // S = 2, K = 1
+    EXPECT_NEAR(slab(2, 1, infinity).r_top, a - b, 1e-15);
+    EXPECT_NEAR(slab(2, 1, .7).r_top, 1 / (a + b / std::tanh(b * 2 * .7)), 1e-15);
+}
+
+TEST(HealingTissue, AnInjuryTakesLayersFromTheTop)
+{
+    const TissueDay fresh = restored_skin(table1(), 1);
+    EXPECT_EQ(layers_at(fresh, 0).layers.size(), 3u);
+    EXPECT_NEAR(layers_at(fresh, .1).layers[0].thickness_mm, .1, 1e-15);
+    const SkinLayers bed = layers_at(fresh, .7);
+    ASSERT_EQ(bed.layers.size(), 2u);
+    EXPECT_EQ(bed.layers[0].name, "dermis");
+    EXPECT_NEAR(bed.layers[0].thickness_mm, .5, 1e-12);
+    EXPECT_EQ(layers_at(fresh, 1e9).layers.back().thickness_mm, 2);
+    // Table 1's skin grows lighter without its epidermis, not red.
+    EXPECT_THAT(diffuse_color(layers_at(fresh, .2), Rung::TwoStream), rgb(.732, .422, .423, .025));
+}
+
+TEST(HealingTissue, ColourChangesWithoutAStepAsTheDepthGrows)
+{
+    const TissueDay fresh = restored_skin(table1(), 1);
+    std::vector<double> before = diffuse_color(layers_at(fresh, 0), Rung::TwoStream);
+    for (double depth = 0; depth < deepest_injury_mm(fresh.intact); depth += 1e-3) {
+        const std::vector<double> now = diffuse_color(layers_at(fresh, depth), Rung::TwoStream);
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(now[c], before[c], .006) << depth;
+        before = now;
+    }
+}
+
+TEST(HealingTissue, RestoredSkinIsIntactSkinWhenTheDepthIsGone)
+{
+    EXPECT_EQ(diffuse_color(layers_at(restored_skin(table1(), 0), 2), Rung::TwoStream),
+              diffuse_color(table1(), Rung::TwoStream));
+    EXPECT_EQ(diffuse_color(layers_at(restored_skin(table1(), .5), 2), Rung::TwoStream),
+              diffuse_color(layers_at(restored_skin(table1(), 1), 1), Rung::TwoStream));
+}
+
+TEST(HealingTissue, RegrownTissueAndCoverLieOnWhatIsLeft)
+{
+    TissueDay day = restored_skin(table1(), .25);
+    day.regrown_ratio = .75;
+    day.regrown.name = "granulation";
+    day.cover.name = "new epithelium";
+    day.cover.thickness_mm = .05;
+    const SkinLayers layers = layers_at(day, .8);
+    ASSERT_EQ(layers.layers.size(), 4u);
+    EXPECT_EQ(layers.layers[0].name, "new epithelium");
+    EXPECT_EQ(layers.layers[1].name, "granulation");
+    EXPECT_NEAR(layers.layers[1].thickness_mm, .6, 1e-12);
+    EXPECT_NEAR(layers.layers[2].thickness_mm, .4, 1e-12);
+}
+
+namespace {
+
+std::string message_of(const std::string& text)
+{
+    try {
+        parse_tissue(nlohmann::json::parse(text), "t.json");
+    } catch (const cicatrix::InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+const std::string good_layer =
+    R"({"name":"a","sigma_a":[1,2,3],"sigma_s":10,"g":0.8,"n":1.4,"thickness_mm":"inf"})";
+
+std::string tissue_with(const std::string& layer)
+{
+    return R"({"unit":"1/cm","layers":[)" + layer + "]}";
+}
+
+} // namespace
+
+TEST(TissueFile, UnitsAndScatteringAreConverted)
+{
+    const SkinLayers tissue = parse_tissue(nlohmann::json::parse(tissue_with(good_layer)), "t.json");
+    ASSERT_EQ(tissue.channels(), 3u);
+    EXPECT_DOUBLE_EQ(tissue.layers[0].sigma_a[1], .2);
+    EXPECT_NEAR(tissue.layers[0].sigma_s_reduced[2], .2, 1e-15);
+    EXPECT_EQ(tissue.layers[0].thickness_mm, infinity);
+    EXPECT_EQ(tissue.n_below, 1);
+}
+
+TEST(TissueFile, MistakesAreNamedWithFileAndField)
+{
+    const auto layer_with = [](const std::string& from, const std::string& to) {
+        std::string text = good_layer;
+        return message_of(tissue_with(text.replace(text.find(from), from.size(), to)));
+    };
+    EXPECT_THAT(message_of(R"({"layers":[]})"), HasSubstr("t.json: /unit: missing"));
+    EXPECT_THAT(message_of(R"({"unit":"1/m","layers":[]})"), HasSubstr("t.json: /unit: not a known unit"));
+    EXPECT_THAT(message_of(R"({"unit":"1/mm","layers":[]})"), HasSubstr("t.json: /layers: not a list"));
+    EXPECT_THAT(message_of("[1]"), HasSubstr("t.json: /: not an object"));
+    EXPECT_THAT(message_of(R"({"unit":"1/mm","colour":1,"layers":[]})"), HasSubstr("/colour: unknown field"));
+    EXPECT_THAT(layer_with("0.8", "1.5"), HasSubstr("t.json: /layers/0/g: 1.5 is out of range"));
+    EXPECT_THAT(layer_with("[1,2,3]", "[1,-2,3]"), HasSubstr("/layers/0/sigma_a/1: -2 is out of range"));
+    EXPECT_THAT(layer_with("[1,2,3]", "\"red\""), HasSubstr("/layers/0/sigma_a: not a number"));
+    EXPECT_THAT(layer_with("[1,2,3]", "[]"), HasSubstr("/layers/0/sigma_a: an empty array"));
+    EXPECT_THAT(layer_with("\"inf\"", "-1"), HasSubstr("/layers/0/thickness_mm: -1 is out of range"));
+    EXPECT_THAT(layer_with("\"n\":1.4,", ""), HasSubstr("/layers/0/n: missing"));
+    EXPECT_THAT(layer_with("\"n\":1.4", "\"n\":0.5"), HasSubstr("/layers/0/n: 0.5 is out of range"));
+    EXPECT_THAT(layer_with("\"sigma_s\":10,", ""), HasSubstr("scattering is given twice or not at all"));
+    EXPECT_THAT(layer_with("\"name\":\"a\"", "\"name\":1"), HasSubstr("/layers/0/name: not a string"));
+    EXPECT_THAT(
+        message_of(tissue_with(good_layer + R"(,{"sigma_a":[1,2],"sigma_s":1,"n":1,"thickness_mm":1})")),
+        HasSubstr("/layers/1: 2 channels where another layer has 3"));
+    EXPECT_THROW(read_tissue("/nonexistent/tissue.json"), cicatrix::InputError);
+}

@@ -1,0 +1,219 @@
+#include "wound/reflectance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wound/fresnel.hpp"
+
+namespace wound {
+
+namespace {
+
+double boundary(double n_from, double n_to, DiffuseFresnel form)
+{
+    if (form == DiffuseFresnel::Polynomial && n_from != n_to)
+        return diffuse_fresnel_polynomial(n_from, n_to);
+    return diffuse_fresnel(n_from, n_to);
+}
+
+double first_surface(const Stack& stack, Incidence incidence, DiffuseFresnel form)
+{
+    if (stack.layers.empty())
+        return 0;
+    const double n = stack.layers.front().n;
+    return incidence == Incidence::Normal ? fresnel(stack.n_above, n, 1) : boundary(stack.n_above, n, form);
+}
+
+// ---- the paper's own equations
+// -----------------------------------------------------------------------------------
+
+// What eqs. (2) and (3) say of one layer, without the factor of the upper boundary.
+struct PaperLayer
+{
+    double reflected, transmitted;
+};
+
+PaperLayer paper_layer(const LayerOptics& layer, double lower_boundary, Rung rung)
+{
+    const double a = layer.sigma_a, s = layer.sigma_s_reduced * backward_fraction(layer.g);
+    if (rung == Rung::Exponential) {
+        const double attenuation = std::exp(-(a + s) * std::min(layer.thickness_mm, 1e30));
+        const double scattered = a + s > 0 ? s / (2 * (a + s)) * (1 - attenuation * attenuation) : 0;
+        return {scattered + lower_boundary * attenuation * attenuation, attenuation * (1 - lower_boundary)};
+    }
+    double d = layer.thickness_mm;
+    if (rung == Rung::Clamped)
+        d = std::min({d, 1 / (a + s), 1e30});
+    const double left = 1 - (a + s) * d;
+    const double scattered = s * d * (1 - a * d + a * a * d * d / 3);
+    return {scattered + lower_boundary * left * left, left * (1 - lower_boundary)};
+}
+
+// The light that passes one layer is what meets the next; the upper boundary's factor stands before the whole
+// sum.
+Response paper_response(const Stack& stack, Rung rung, double specular, DiffuseFresnel form)
+{
+    const auto& layers = stack.layers;
+    double incoming = 1, sum = 0;
+    Response response;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const double below = i + 1 < layers.size() ? layers[i + 1].n : stack.n_below;
+        const PaperLayer layer = paper_layer(layers[i], boundary(layers[i].n, below, form), rung);
+        sum += incoming * layer.reflected;
+        const double lost = incoming * (1 - layer.reflected - layer.transmitted);
+        response.absorbed.push_back((1 - specular) * lost);
+        incoming *= layer.transmitted;
+    }
+    // Eq. (3) weights the sum with the light that gets out through the upper boundary. The bounded forms must
+    // not weight it with more than what got in: Exponential takes that, Clamped the smaller of the two.
+    const double back_inside = layers.empty() ? 0 : boundary(layers.front().n, stack.n_above, form);
+    double lost_at_top = back_inside;
+    if (rung == Rung::Exponential)
+        lost_at_top = specular;
+    else if (rung == Rung::Clamped)
+        lost_at_top = std::max(back_inside, specular);
+    response.r_without_specular = (1 - lost_at_top) * sum;
+    response.r = specular + response.r_without_specular;
+    response.t = (1 - specular) * incoming;
+    return response;
+}
+
+// ---- two streams
+// --------------------------------------------------------------------------------------------------
+
+Element interface_element(double n_above, double n_below, DiffuseFresnel form)
+{
+    const double down = boundary(n_above, n_below, form), up = boundary(n_below, n_above, form);
+    return {.r_top = down, .r_bottom = up, .t_down = 1 - down, .t_up = 1 - up};
+}
+
+Element layer_element(const LayerOptics& layer, Rung rung)
+{
+    if (rung == Rung::TwoStreamPaper)
+        return slab(layer.sigma_s_reduced * backward_fraction(layer.g), layer.sigma_a, layer.thickness_mm);
+    // Eddington's S turns negative where absorption rules; there nothing scatters back.
+    const double S = std::max(0.0, 0.75 * layer.sigma_s_reduced - 0.25 * layer.sigma_a);
+    return slab(S, 2 * layer.sigma_a, layer.thickness_mm);
+}
+
+// boundary, layer, boundary, layer, ... boundary, from the top down; layer i is element 2 i + 1.
+std::vector<Element> elements(const Stack& stack, Rung rung, double specular, DiffuseFresnel form)
+{
+    std::vector<Element> result;
+    double above = stack.n_above;
+    for (const LayerOptics& layer : stack.layers) {
+        result.push_back(interface_element(above, layer.n, form));
+        result.push_back(layer_element(layer, rung));
+        above = layer.n;
+    }
+    result.push_back(interface_element(above, stack.n_below, form));
+    if (!stack.layers.empty()) {
+        result.front().r_top = specular;
+        result.front().t_down = 1 - specular;
+    }
+    return result;
+}
+
+// 1 - r_up r_down of the light that goes to and fro between two elements. What leaves through either is a
+// lower bound of it, which keeps the sum finite when both reflectances round to 1.
+double round_trip_loss(const Element& upper, const Element& lower)
+{
+    return std::max({1 - upper.r_bottom * lower.r_top, upper.t_up, lower.t_down, 1e-300});
+}
+
+Response two_stream(const Stack& stack, Rung rung, double specular, DiffuseFresnel form)
+{
+    const std::vector<Element> list = elements(stack, rung, specular, form);
+    std::vector<Element> rest(list.size() + 1); // element i and all that lies under it
+    for (std::size_t i = list.size(); i-- > 0;)
+        rest[i] = over(list[i], rest[i + 1]);
+
+    Response response;
+    response.r = rest[0].r_top;
+    response.r_without_specular = std::max(0.0, response.r - specular);
+    response.t = std::min(rest[0].t_down, 1 - response.r); // rounding
+    Element above;
+    double entering = 1 - response.r; // net flux downward into the element
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        above = over(above, list[i]);
+        const double leaving = above.t_down / round_trip_loss(above, rest[i + 1]) * (1 - rest[i + 1].r_top);
+        if (i % 2 == 1)
+            response.absorbed.push_back(std::max(0.0, entering - leaving));
+        entering = leaving;
+    }
+    return response;
+}
+
+} // namespace
+
+std::string_view name(Rung rung)
+{
+    switch (rung) {
+    case Rung::Published:
+        return "published";
+    case Rung::Clamped:
+        return "clamped";
+    case Rung::Exponential:
+        return "exponential";
+    case Rung::TwoStreamPaper:
+        return "two-stream-paper";
+    case Rung::TwoStream:
+        return "two-stream";
+    }
+    return {};
+}
+
+Response reflectance(const Stack& stack, Rung rung, Incidence incidence, DiffuseFresnel form)
+{
+    const double specular = first_surface(stack, incidence, form);
+    if (rung == Rung::TwoStream || rung == Rung::TwoStreamPaper)
+        return two_stream(stack, rung, specular, form);
+    return paper_response(stack, rung, specular, form);
+}
+
+std::vector<double> diffuse_color(const SkinLayers& tissue, Rung rung)
+{
+    std::vector<double> color;
+    for (std::size_t c = 0; c < tissue.channels(); ++c)
+        color.push_back(reflectance(tissue.channel(c), rung).r_without_specular);
+    return color;
+}
+
+std::vector<OutsideDomain> outside_domain(const SkinLayers& tissue)
+{
+    std::vector<OutsideDomain> result;
+    for (std::size_t l = 0; l < tissue.layers.size(); ++l)
+        for (std::size_t c = 0; c < tissue.channels(); ++c) {
+            const Layer& layer = tissue.layers[l];
+            const double limit =
+                1 / (layer.sigma_a[c] + layer.sigma_s_reduced[c] * backward_fraction(layer.g));
+            if (layer.thickness_mm > limit)
+                result.push_back({l, c, layer.thickness_mm, limit});
+        }
+    return result;
+}
+
+Element slab(double S, double K, double thickness_mm)
+{
+    // R = (1-e)/((a+b)-(a-b)e), T = 2 b exp(-bSd)/(same) with a = (S+K)/S, b = sqrt(a^2-1), e = exp(-2bSd),
+    // multiplied by S and divided by kappa = bS = sqrt(K(K+2S)), so that neither S = 0 nor K = 0 is special.
+    const double d = std::min(thickness_mm, 1e30); // infinite: far past any effect, without inf/inf
+    const double kappa = std::sqrt(K * (K + 2 * S));
+    const double x = 2 * kappa * d;
+    const double f = x > 0 ? -std::expm1(-x) / kappa : 2 * d; // -> 2 d without absorption
+    const double e = std::exp(-x);
+    const double denominator = (S + K) * f + 1 + e;
+    const double r = S * f / denominator, t = 2 * std::exp(-0.5 * x) / denominator;
+    return {.r_top = r, .r_bottom = r, .t_down = t, .t_up = t};
+}
+
+Element over(const Element& upper, const Element& lower)
+{
+    const double m = 1 / round_trip_loss(upper, lower);
+    return {.r_top = upper.r_top + upper.t_down * lower.r_top * upper.t_up * m,
+            .r_bottom = lower.r_bottom + lower.t_up * upper.r_bottom * lower.t_down * m,
+            .t_down = upper.t_down * lower.t_down * m,
+            .t_up = lower.t_up * upper.t_up * m};
+}
+
+} // namespace wound

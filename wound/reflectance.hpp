@@ -1,0 +1,76 @@
+// How much light layered tissue gives back: the analytic rungs of the ladder, from the printed equations to
+// the two-stream model, behind one interface. All take layers at one wavelength; equations are numbered as in
+// docs/optics.md.
+#pragma once
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "wound/tissue.hpp"
+
+namespace wound {
+
+enum class Rung
+{
+    Published,      // eqs. (2), (3) exactly as printed; leaves 0..1 outside their domain
+    Clamped,        // the same with each thickness limited to the domain
+    Exponential,    // the same with exponentials for the linear attenuation
+    TwoStreamPaper, // Kubelka-Munk layers with the paper's S = P sigma_s', K = sigma_a; adding
+    TwoStream, // Kubelka-Munk layers with Eddington's S = 3/4 sigma_s' - 1/4 sigma_a, K = 2 sigma_a; adding
+};
+
+enum class Incidence
+{
+    Diffuse,
+    Normal, // analytic rungs: the light is diffuse once inside
+};
+
+enum class DiffuseFresnel
+{
+    Exact,
+    Polynomial,
+};
+
+struct Response
+{
+    double r = 0;                  // all reflected light
+    double r_without_specular = 0; // less what the first surface alone reflects
+    double t = 0;                  // into the medium below
+    std::vector<double>
+        absorbed; // per layer; for the first three rungs whatever they neither return nor pass on
+};
+
+/// Name on the command line and in JSON: "published", "clamped", "exponential", "two-stream-paper",
+/// "two-stream".
+std::string_view name(Rung rung);
+
+/// For TwoStreamPaper and TwoStream, whatever the input: 0 <= r, t and r + t <= 1; r + t = 1 without
+/// absorption; a layer split in two changes nothing. Clamped and Exponential keep the bounds only, Published
+/// keeps nothing.
+Response reflectance(const Stack& stack, Rung rung, Incidence incidence = Incidence::Diffuse,
+                     DiffuseFresnel fresnel = DiffuseFresnel::Exact);
+
+/// r_without_specular of every channel.
+std::vector<double> diffuse_color(const SkinLayers& tissue, Rung rung);
+
+/// A layer thicker than the printed equations allow: there T(d) < 0.
+struct OutsideDomain
+{
+    std::size_t layer, channel;
+    double thickness_mm, limit_mm; // limit: 1 / (sigma_a + P sigma_s')
+};
+std::vector<OutsideDomain> outside_domain(const SkinLayers& tissue);
+
+/// Reflectance and transmittance of a layer or a boundary for diffuse light that comes from above (top) and
+/// below (bottom).
+struct Element
+{
+    double r_top = 0, r_bottom = 0, t_down = 1, t_up = 1;
+};
+
+/// Kubelka-Munk slab without boundaries, for back-scattering S and absorption K per mm; continuous down to S
+/// = K = 0 and up to an infinite thickness.
+Element slab(double S, double K, double thickness_mm);
+Element over(const Element& upper, const Element& lower); // adding
+
+} // namespace wound
