@@ -1,0 +1,26 @@
+// sRGB (IEC 61966-2-1) and linear light, both Rec. 709 primaries.
+#pragma once
+#include <cmath>
+
+namespace wound {
+
+/// Component 0..1, sRGB code to linear.
+inline float srgb_to_linear(float code)
+{
+    return code <= .04045f ? code / 12.92f : std::pow((code + .055f) / 1.055f, 2.4f);
+}
+
+/// Component 0..1, linear to sRGB code.
+inline float linear_to_srgb(float linear)
+{
+    return linear <= .0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - .055f;
+}
+
+/// Relative luminance of linear Rec. 709 components.
+template <class Rgb>
+float luminance(const Rgb& linear)
+{
+    return .2126f * linear[0] + .7152f * linear[1] + .0722f * linear[2];
+}
+
+} // namespace wound
