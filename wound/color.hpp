@@ -1,5 +1,6 @@
 // Colour as numbers: linear Rec. 709 light, its sRGB encoding, CIELAB under D65 and the CIEDE2000 difference.
 #pragma once
+#include <cmath>
 #include <opencv2/core.hpp>
 
 namespace wound {
@@ -10,6 +11,23 @@ using Color = cv::Vec3d; // linear Rec. 709 (sRGB primaries, D65 white); 1 = dif
 /// does.
 double srgb_from_linear(double linear);
 double linear_from_srgb(double encoded);
+
+/// The same in single precision, for loops over pixels.
+inline float srgb_to_linear(float code)
+{
+    return code <= .04045f ? code / 12.92f : std::pow((code + .055f) / 1.055f, 2.4f);
+}
+inline float linear_to_srgb(float linear)
+{
+    return linear <= .0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - .055f;
+}
+
+/// Relative luminance of linear Rec. 709 components.
+template <class Rgb>
+float luminance(const Rgb& linear)
+{
+    return .2126f * linear[0] + .7152f * linear[1] + .0722f * linear[2];
+}
 
 Color linear_from_srgb8(const cv::Vec3b& rgb);
 /// Rounded to nearest; values outside 0..1 are clamped, NaN is black.
