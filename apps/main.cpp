@@ -1,1 +1,48 @@
-int main() { return 0; }
+// The program: `cicatrix COMMAND ...`. Each command registers itself; what a user's file or machine does wrong ends as one line on
+// stderr and exit code 1.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <fmt/format.h>
+
+#include "apps/capture.hpp"
+#include "apps/graph_command.hpp"
+#include "apps/info.hpp"
+
+namespace {
+
+int report(const std::string& message)
+{
+    std::string line = message;
+    for (char& c : line)
+        c = c == '\n' ? ' ' : c;
+    fmt::print(stderr, "cicatrix: {}\n", line);
+    return 1;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App program("Cicatrix shows how a wound on a face heals, day by day, from a photograph.", "cicatrix");
+    program.require_subcommand(1);
+    program.footer("Example: cicatrix capture --days 0:30:3 --out healing\nEach command explains itself: cicatrix capture --help");
+    try
+    {
+        app::add_capture_command(program);
+        app::add_graph_command(program);
+        app::add_info_command(program);
+        program.parse(argc, argv);
+    }
+    catch (const CLI::ParseError& error)
+    {
+        if (error.get_exit_code() == 0) // --help
+            return program.exit(error);
+        return report(std::string(error.what()) + "; see cicatrix --help") + 1;
+    }
+    catch (const std::exception& error)
+    {
+        return report(error.what());
+    }
+    return 0;
+}

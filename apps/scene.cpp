@@ -85,6 +85,7 @@ LightScene read_light(const json& object, const std::string& where)
     LightScene light;
     light.from = read_direction(fields, light.from);
     light.directional = fields.boolean("directional", light.directional);
+    light.falloff = fields.boolean("falloff", light.falloff);
     light.distance_m = fields.number("distance_m", light.distance_m, 0, 100);
     light.color = fields.numbers<3>("color", light.color, 0, 1000);
     light.intensity = fields.number("intensity", light.intensity, 0, 1e6);
@@ -217,6 +218,7 @@ json to_json(const Scene& scene)
                           {"elevation_deg", light.from.elevation_deg},
                           {"distance_m", light.distance_m},
                           {"directional", light.directional},
+                          {"falloff", light.falloff},
                           {"color", light.color},
                           {"intensity", light.intensity}});
     return {{"head", scene.head.string()},

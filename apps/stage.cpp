@@ -30,7 +30,9 @@ wound::Light make_light(const LightScene& scene, const passes::FaceFrame& face)
 {
     const glm::dvec3 towards = unit_towards(scene.from), middle = face_middle(face);
     wound::Light light;
-    light.kind = scene.directional ? wound::LightKind::Directional : wound::LightKind::Point;
+    light.kind = scene.directional ? wound::LightKind::Directional
+                 : scene.falloff   ? wound::LightKind::Point
+                                   : wound::LightKind::PointWithoutFalloff;
     light.position = to_cv(middle + scene.distance_m * towards);
     light.direction = to_cv(towards);
     light.strength = cv::Vec3d(scene.color[0], scene.color[1], scene.color[2]) * scene.intensity;

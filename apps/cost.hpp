@@ -1,0 +1,15 @@
+// What the shading terms and an unchanged frame cost, as ratios measured in one run.
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/stage.hpp"
+#include "engine/executor.hpp"
+
+namespace app {
+
+/// Draws the variants in turn, `rounds` times after a warm-up, and compares medians. `lines` receives what a person reads.
+nlohmann::json measure_cost(engine::Executor& executor, const Stage& stage, std::vector<std::string>& lines, int rounds = 9);
+
+} // namespace app
