@@ -23,8 +23,9 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::size
     if (size == 0)
         throw cicatrix::InputError(path.string(), "the file is empty", "copy or export it again");
     if (size > max_bytes)
-        throw cicatrix::InputError(path.string(), fmt::format("{} MB is more than the limit of {} MB", size >> 20, max_bytes >> 20),
-                                   "use a smaller file");
+        throw cicatrix::InputError(
+            path.string(), fmt::format("{} MB is more than the limit of {} MB", size >> 20, max_bytes >> 20),
+            "use a smaller file");
     std::vector<std::uint8_t> bytes(size);
     std::ifstream file(path, std::ios::binary);
     errno = 0;

@@ -62,7 +62,8 @@ double component(const std::uint8_t* bytes, int type, bool normalized)
     }
 }
 
-/// `count` elements of `size` bytes, `stride` apart, from `offset` on, lie within `length` bytes. Cannot overflow.
+/// `count` elements of `size` bytes, `stride` apart, from `offset` on, lie within `length` bytes. Cannot
+/// overflow.
 bool fits(std::size_t offset, std::size_t count, std::size_t stride, std::size_t size, std::size_t length)
 {
     if (count == 0)
@@ -72,7 +73,10 @@ bool fits(std::size_t offset, std::size_t count, std::size_t stride, std::size_t
 
 } // namespace
 
-std::string GltfReader::where(std::string_view field) const { return fmt::format("{}: {}", file_, field); }
+std::string GltfReader::where(std::string_view field) const
+{
+    return fmt::format("{}: {}", file_, field);
+}
 
 void GltfReader::refuse(std::string_view field, std::string_view what, std::string_view cure) const
 {
@@ -85,11 +89,13 @@ std::span<const std::uint8_t> GltfReader::view(int buffer_view, std::string_view
         refuse(field, fmt::format("there is no buffer view {}", buffer_view));
     const tinygltf::BufferView& view = gltf_.bufferViews[buffer_view];
     if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= gltf_.buffers.size())
-        refuse(fmt::format("/bufferViews/{}/buffer", buffer_view), fmt::format("there is no buffer {}", view.buffer));
+        refuse(fmt::format("/bufferViews/{}/buffer", buffer_view),
+               fmt::format("there is no buffer {}", view.buffer));
     const auto& bytes = gltf_.buffers[view.buffer].data;
     if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset)
         refuse(fmt::format("/bufferViews/{}", buffer_view),
-               fmt::format("bytes {} + {} lie outside the buffer's {}", view.byteOffset, view.byteLength, bytes.size()));
+               fmt::format("bytes {} + {} lie outside the buffer's {}", view.byteOffset, view.byteLength,
+                           bytes.size()));
     return std::span(bytes).subspan(view.byteOffset, view.byteLength);
 }
 
@@ -99,14 +105,18 @@ const tinygltf::Accessor& GltfReader::accessor_at(int accessor, std::string_view
         refuse(field, fmt::format("there is no accessor {}", accessor));
     const tinygltf::Accessor& found = gltf_.accessors[accessor];
     if (found.count > max_count)
-        refuse(fmt::format("/accessors/{}/count", accessor), fmt::format("{} is more than the limit of {}", found.count, max_count),
-               "use a smaller model");
+        refuse(fmt::format("/accessors/{}/count", accessor),
+               fmt::format("{} is more than the limit of {}", found.count, max_count), "use a smaller model");
     return found;
 }
 
-std::size_t GltfReader::count(int accessor, std::string_view field) const { return accessor_at(accessor, field).count; }
+std::size_t GltfReader::count(int accessor, std::string_view field) const
+{
+    return accessor_at(accessor, field).count;
+}
 
-/// Calls store(element, component, value) for the accessor's elements, then for those its sparse part replaces.
+/// Calls store(element, component, value) for the accessor's elements, then for those its sparse part
+/// replaces.
 template <typename Store>
 void GltfReader::visit(const tinygltf::Accessor& accessor, std::string_view field, Store&& store) const
 {
@@ -125,26 +135,30 @@ void GltfReader::visit(const tinygltf::Accessor& accessor, std::string_view fiel
         const std::size_t byte_stride = gltf_.bufferViews[accessor.bufferView].byteStride;
         const std::size_t stride = byte_stride ? byte_stride : size * components;
         if (!fits(accessor.byteOffset, accessor.count, stride, size * components, bytes.size()))
-            refuse(field, fmt::format("its {} elements reach beyond buffer view {}", accessor.count, accessor.bufferView));
+            refuse(field, fmt::format("its {} elements reach beyond buffer view {}", accessor.count,
+                                      accessor.bufferView));
         for (std::size_t i = 0; i < accessor.count; ++i)
             store_element(i, bytes.data() + accessor.byteOffset + i * stride);
     }
     if (!accessor.sparse.isSparse)
         return;
     const auto& sparse = accessor.sparse;
-    const auto places = view(sparse.indices.bufferView, field), values = view(sparse.values.bufferView, field);
+    const auto places = view(sparse.indices.bufferView, field),
+               values = view(sparse.values.bufferView, field);
     const std::size_t place_size = component_size(sparse.indices.componentType);
     const bool unsigned_places = sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
                                  sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
                                  sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
     if (sparse.count < 0 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0 || !unsigned_places)
         refuse(field, "its sparse part is malformed");
-    const std::size_t sparse_count = sparse.count, places_at = sparse.indices.byteOffset, values_at = sparse.values.byteOffset;
+    const std::size_t sparse_count = sparse.count, places_at = sparse.indices.byteOffset,
+                      values_at = sparse.values.byteOffset;
     if (!fits(places_at, sparse_count, place_size, place_size, places.size()) ||
         !fits(values_at, sparse_count, size * components, size * components, values.size()))
         refuse(field, "its sparse part reaches beyond its buffer view");
     for (std::size_t i = 0; i < sparse_count; ++i) {
-        const double place = component(places.data() + places_at + i * place_size, sparse.indices.componentType, false);
+        const double place =
+            component(places.data() + places_at + i * place_size, sparse.indices.componentType, false);
         if (place >= static_cast<double>(accessor.count))
             refuse(field, fmt::format("its sparse part names element {} of {}", place, accessor.count));
         store_element(static_cast<std::size_t>(place), values.data() + values_at + i * size * components);

@@ -15,7 +15,8 @@ class GltfReader
     /// `file` names the file in errors. Both must outlive the reader.
     GltfReader(const tinygltf::Model& gltf, const std::string& file) : gltf_(gltf), file_(file) {}
 
-    /// count x components numbers, integers normalised where the accessor says so. `field` is the JSON path that led here.
+    /// count x components numbers, integers normalised where the accessor says so. `field` is the JSON path
+    /// that led here.
     std::vector<float> numbers(int accessor, int components, std::string_view field) const;
     /// Unsigned integers, each below `limit`.
     std::vector<std::uint32_t> indices(int accessor, std::size_t limit, std::string_view field) const;

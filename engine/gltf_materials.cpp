@@ -19,8 +19,8 @@ class Pictures
     {
     }
 
-    /// The picture of a texture in OpenCV's order; empty when there is none we read. A vertex has room for one set of
-    /// coordinates: that of the base colour, `uv_set`.
+    /// The picture of a texture in OpenCV's order; empty when there is none we read. A vertex has room for
+    /// one set of coordinates: that of the base colour, `uv_set`.
     cv::Mat of_texture(int texture, int texture_uv_set, int uv_set, const std::string& field);
 
   private:
@@ -48,7 +48,8 @@ cv::Mat Pictures::of_texture(int texture, int texture_uv_set, int uv_set, const 
         return {};
     }
     if (static_cast<std::size_t>(image) >= gltf_.images.size())
-        reader_.refuse(fmt::format("/textures/{}/source", texture), fmt::format("there is no image {}", image));
+        reader_.refuse(fmt::format("/textures/{}/source", texture),
+                       fmt::format("there is no image {}", image));
     const auto found = decoded_.find(image);
     return found != decoded_.end() ? found->second : decoded_.emplace(image, decode(image)).first->second;
 }
@@ -57,10 +58,12 @@ cv::Mat Pictures::decode(int image)
 {
     const tinygltf::Image& source = gltf_.images[image];
     const std::string field = fmt::format("/images/{}", image);
-    const std::span<const std::uint8_t> bytes =
-        source.bufferView >= 0 ? reader_.view(source.bufferView, field + "/bufferView") : std::span(source.image);
+    const std::span<const std::uint8_t> bytes = source.bufferView >= 0
+                                                    ? reader_.view(source.bufferView, field + "/bufferView")
+                                                    : std::span(source.image);
     if (bytes.empty())
-        reader_.refuse(field, fmt::format("picture \"{}\" is not there", source.uri), "put it beside the model, or use a .glb");
+        reader_.refuse(field, fmt::format("picture \"{}\" is not there", source.uri),
+                       "put it beside the model, or use a .glb");
     return decode_picture(bytes, Channels::AsStored, reader_.where(field));
 }
 
@@ -71,7 +74,9 @@ cv::Mat convert(const cv::Mat& picture, cv::ColorConversionCodes from_gray, cv::
     cv::Mat converted;
     if (!picture.empty())
         cv::cvtColor(picture, converted,
-                     picture.channels() == 1 ? from_gray : picture.channels() == 3 ? from_bgr : from_bgra);
+                     picture.channels() == 1   ? from_gray
+                     : picture.channels() == 3 ? from_bgr
+                                               : from_bgra);
     return converted;
 }
 
@@ -89,10 +94,10 @@ Material convert_material(const tinygltf::Material& source, const std::string& f
     };
     Material material;
     material.name = source.name;
-    material.base_color = convert(picture(pbr.baseColorTexture, "/pbrMetallicRoughness/baseColorTexture"), cv::COLOR_GRAY2RGBA,
-                                  cv::COLOR_BGR2RGBA, cv::COLOR_BGRA2RGBA);
-    material.normal =
-        convert(picture(source.normalTexture, "/normalTexture"), cv::COLOR_GRAY2RGB, cv::COLOR_BGR2RGB, cv::COLOR_BGRA2RGB);
+    material.base_color = convert(picture(pbr.baseColorTexture, "/pbrMetallicRoughness/baseColorTexture"),
+                                  cv::COLOR_GRAY2RGBA, cv::COLOR_BGR2RGBA, cv::COLOR_BGRA2RGBA);
+    material.normal = convert(picture(source.normalTexture, "/normalTexture"), cv::COLOR_GRAY2RGB,
+                              cv::COLOR_BGR2RGB, cv::COLOR_BGRA2RGB);
     const cv::Mat occlusion = picture(source.occlusionTexture, "/occlusionTexture");
     if (!occlusion.empty()) {
         cv::extractChannel(occlusion, material.occlusion, occlusion.channels() == 1 ? 0 : 2); // red
@@ -103,7 +108,8 @@ Material convert_material(const tinygltf::Material& source, const std::string& f
     for (int c = 0; c < 4 && pbr.baseColorFactor.size() == 4; ++c)
         material.base_color_factor[c] = unit(pbr.baseColorFactor[c], 1.0f);
     const double scale = source.normalTexture.scale;
-    material.normal_scale = std::isfinite(scale) ? std::clamp(static_cast<float>(scale), -16.0f, 16.0f) : 1.0f;
+    material.normal_scale =
+        std::isfinite(scale) ? std::clamp(static_cast<float>(scale), -16.0f, 16.0f) : 1.0f;
     material.roughness = unit(pbr.roughnessFactor, 1.0f);
     material.alpha = source.alphaMode == "MASK"    ? AlphaMode::Mask
                      : source.alphaMode == "BLEND" ? AlphaMode::Blend
@@ -116,13 +122,15 @@ Material convert_material(const tinygltf::Material& source, const std::string& f
 } // namespace
 
 std::vector<Material> gather_materials(const tinygltf::Model& gltf, const GltfReader& reader,
-                                       const std::vector<std::uint32_t>& wanted, std::vector<std::string>& notes)
+                                       const std::vector<std::uint32_t>& wanted,
+                                       std::vector<std::string>& notes)
 {
     Pictures pictures(gltf, reader, notes);
     std::vector<Material> materials;
     for (std::uint32_t m : wanted) {
         if (m < gltf.materials.size())
-            materials.push_back(convert_material(gltf.materials[m], fmt::format("/materials/{}", m), pictures));
+            materials.push_back(
+                convert_material(gltf.materials[m], fmt::format("/materials/{}", m), pictures));
         else
             materials.emplace_back().name = "default";
     }

@@ -12,10 +12,14 @@ namespace {
 constexpr std::size_t max_vertices = 10'000'000;
 constexpr float max_coordinate = 1e7f; // units: a head in nanometres is refused, not overflowed
 
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(const glm::vec3& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 /// Finite numbers of the wanted count, or the default.
-void take(const std::vector<double>& from, std::span<double> to, const GltfReader& reader, const std::string& field)
+void take(const std::vector<double>& from, std::span<double> to, const GltfReader& reader,
+          const std::string& field)
 {
     if (from.empty())
         return;
@@ -57,12 +61,14 @@ class Gatherer
 
   private:
     void add_mesh(int mesh, const glm::dmat4& transform);
-    void add_primitive(const tinygltf::Primitive& primitive, const glm::dmat4& transform, const std::string& field);
-    std::size_t add_vertices(const tinygltf::Primitive& primitive, const glm::dmat4& transform, const std::string& field);
-    void add_triangles(const tinygltf::Primitive& primitive, std::uint32_t first, std::size_t count, bool mirrored,
+    void add_primitive(const tinygltf::Primitive& primitive, const glm::dmat4& transform,
                        const std::string& field);
-    std::vector<float> attribute(const tinygltf::Primitive& primitive, const std::string& name, int components,
-                                 std::size_t count, const std::string& field) const;
+    std::size_t add_vertices(const tinygltf::Primitive& primitive, const glm::dmat4& transform,
+                             const std::string& field);
+    void add_triangles(const tinygltf::Primitive& primitive, std::uint32_t first, std::size_t count,
+                       bool mirrored, const std::string& field);
+    std::vector<float> attribute(const tinygltf::Primitive& primitive, const std::string& name,
+                                 int components, std::size_t count, const std::string& field) const;
     std::string uv_set(const tinygltf::Primitive& primitive) const;
     glm::dmat3 uv_transform(const tinygltf::Primitive& primitive) const;
 
@@ -72,7 +78,8 @@ class Gatherer
     bool skinned_ = false, morphed_ = false, lines_ = false;
 };
 
-/// Walks the node tree without recursion; a node met twice means a cycle or two parents, both against the standard.
+/// Walks the node tree without recursion; a node met twice means a cycle or two parents, both against the
+/// standard.
 void Gatherer::add_scene()
 {
     struct Visit
@@ -122,10 +129,12 @@ void Gatherer::add_mesh(int mesh, const glm::dmat4& transform)
         add_primitive(primitives[p], transform, fmt::format("/meshes/{}/primitives/{}", mesh, p));
 }
 
-void Gatherer::add_primitive(const tinygltf::Primitive& primitive, const glm::dmat4& transform, const std::string& field)
+void Gatherer::add_primitive(const tinygltf::Primitive& primitive, const glm::dmat4& transform,
+                             const std::string& field)
 {
     if (primitive.extensions.contains("KHR_draco_mesh_compression"))
-        reader_.refuse(field, "is compressed (KHR_draco_mesh_compression)", "export the model without compression");
+        reader_.refuse(field, "is compressed (KHR_draco_mesh_compression)",
+                       "export the model without compression");
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
         lines_ = true;
         return;
@@ -138,22 +147,25 @@ void Gatherer::add_primitive(const tinygltf::Primitive& primitive, const glm::dm
     add_triangles(primitive, first, count, glm::determinant(glm::dmat3(transform)) < 0, field);
 }
 
-std::vector<float> Gatherer::attribute(const tinygltf::Primitive& primitive, const std::string& name, int components,
-                                       std::size_t count, const std::string& field) const
+std::vector<float> Gatherer::attribute(const tinygltf::Primitive& primitive, const std::string& name,
+                                       int components, std::size_t count, const std::string& field) const
 {
     const auto found = primitive.attributes.find(name);
     if (found == primitive.attributes.end())
         return {};
     const std::string path = field + "/attributes/" + name;
     if (reader_.count(found->second, path) != count)
-        reader_.refuse(path, fmt::format("has {} elements for {} vertices", reader_.count(found->second, path), count));
+        reader_.refuse(
+            path, fmt::format("has {} elements for {} vertices", reader_.count(found->second, path), count));
     return reader_.numbers(found->second, components, path);
 }
 
 /// The set of coordinates the base colour uses; a Vertex has room for one.
 std::string Gatherer::uv_set(const tinygltf::Primitive& primitive) const
 {
-    const int set = primitive.material < 0 ? 0 : gltf_.materials[primitive.material].pbrMetallicRoughness.baseColorTexture.texCoord;
+    const int set = primitive.material < 0
+                        ? 0
+                        : gltf_.materials[primitive.material].pbrMetallicRoughness.baseColorTexture.texCoord;
     return fmt::format("TEXCOORD_{}", set);
 }
 
@@ -163,14 +175,17 @@ glm::dmat3 Gatherer::uv_transform(const tinygltf::Primitive& primitive) const
     glm::dmat3 matrix(1.0);
     if (primitive.material < 0)
         return matrix;
-    const auto& extensions = gltf_.materials[primitive.material].pbrMetallicRoughness.baseColorTexture.extensions;
+    const auto& extensions =
+        gltf_.materials[primitive.material].pbrMetallicRoughness.baseColorTexture.extensions;
     const auto found = extensions.find("KHR_texture_transform");
     if (found == extensions.end())
         return matrix;
     const auto pair = [&](const char* name, double otherwise) {
         const tinygltf::Value& value = found->second.Get(name);
-        const bool sound = value.IsArray() && value.ArrayLen() == 2 && value.Get(0).IsNumber() && value.Get(1).IsNumber();
-        return sound ? glm::dvec2(value.Get(0).GetNumberAsDouble(), value.Get(1).GetNumberAsDouble()) : glm::dvec2(otherwise);
+        const bool sound =
+            value.IsArray() && value.ArrayLen() == 2 && value.Get(0).IsNumber() && value.Get(1).IsNumber();
+        return sound ? glm::dvec2(value.Get(0).GetNumberAsDouble(), value.Get(1).GetNumberAsDouble())
+                     : glm::dvec2(otherwise);
     };
     const tinygltf::Value& rotation = found->second.Get("rotation");
     const double angle = rotation.IsNumber() ? rotation.GetNumberAsDouble() : 0.0;
@@ -179,14 +194,16 @@ glm::dmat3 Gatherer::uv_transform(const tinygltf::Primitive& primitive) const
     return glm::dmat3(c * scale.x, -s * scale.x, 0, s * scale.y, c * scale.y, 0, offset.x, offset.y, 1);
 }
 
-std::size_t Gatherer::add_vertices(const tinygltf::Primitive& primitive, const glm::dmat4& transform, const std::string& field)
+std::size_t Gatherer::add_vertices(const tinygltf::Primitive& primitive, const glm::dmat4& transform,
+                                   const std::string& field)
 {
     const auto position_at = primitive.attributes.find("POSITION");
     if (position_at == primitive.attributes.end())
         reader_.refuse(field + "/attributes/POSITION", "is missing");
     const std::size_t count = reader_.count(position_at->second, field + "/attributes/POSITION");
     if (count > max_vertices - mesh_.vertices.size())
-        reader_.refuse(field, fmt::format("brings the model above {} vertices", max_vertices), "use a smaller model");
+        reader_.refuse(field, fmt::format("brings the model above {} vertices", max_vertices),
+                       "use a smaller model");
     const auto positions = attribute(primitive, "POSITION", 3, count, field);
     const auto normals = attribute(primitive, "NORMAL", 3, count, field);
     const auto tangents = attribute(primitive, "TANGENT", 4, count, field);
@@ -196,14 +213,17 @@ std::size_t Gatherer::add_vertices(const tinygltf::Primitive& primitive, const g
     const glm::dmat3 linear(transform), uv_matrix = uv_transform(primitive);
     const double sign = glm::determinant(linear) < 0 ? -1.0 : 1.0;
     // The cofactor matrix turns normals and, unlike the inverse transpose, needs no division.
-    const glm::dmat3 cofactor(sign * glm::cross(linear[1], linear[2]), sign * glm::cross(linear[2], linear[0]),
+    const glm::dmat3 cofactor(sign * glm::cross(linear[1], linear[2]),
+                              sign * glm::cross(linear[2], linear[0]),
                               sign * glm::cross(linear[0], linear[1]));
     for (std::size_t i = 0; i < count; ++i) {
         Vertex vertex{};
         std::uint8_t known = 0;
         vertex.position = glm::vec3(transform * glm::dvec4(glm::make_vec3(&positions[3 * i]), 1.0));
-        if (!finite(vertex.position) || glm::any(glm::greaterThan(glm::abs(vertex.position), glm::vec3(max_coordinate))))
-            reader_.refuse(field + "/attributes/POSITION", fmt::format("vertex {} is not finite or absurdly far away", i));
+        if (!finite(vertex.position) ||
+            glm::any(glm::greaterThan(glm::abs(vertex.position), glm::vec3(max_coordinate))))
+            reader_.refuse(field + "/attributes/POSITION",
+                           fmt::format("vertex {} is not finite or absurdly far away", i));
         if (!normals.empty()) {
             const glm::dvec3 normal = cofactor * glm::dvec3(glm::make_vec3(&normals[3 * i]));
             vertex.normal = glm::vec3(glm::normalize(normal));
@@ -227,8 +247,8 @@ std::size_t Gatherer::add_vertices(const tinygltf::Primitive& primitive, const g
     return count;
 }
 
-void Gatherer::add_triangles(const tinygltf::Primitive& primitive, std::uint32_t first, std::size_t count, bool mirrored,
-                             const std::string& field)
+void Gatherer::add_triangles(const tinygltf::Primitive& primitive, std::uint32_t first, std::size_t count,
+                             bool mirrored, const std::string& field)
 {
     std::vector<std::uint32_t> corners;
     if (primitive.indices >= 0) {
@@ -238,16 +258,18 @@ void Gatherer::add_triangles(const tinygltf::Primitive& primitive, std::uint32_t
         for (std::size_t i = 0; i < count; ++i)
             corners[i] = static_cast<std::uint32_t>(i);
     }
-    const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES, fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
+    const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES,
+               fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
     if (list && corners.size() % 3 != 0)
         reader_.refuse(field + "/indices", fmt::format("{} corners make no whole triangles", corners.size()));
     const std::size_t triangles = list ? corners.size() / 3 : corners.size() < 3 ? 0 : corners.size() - 2;
     if (triangles > max_vertices - mesh_.indices.size() / 3)
-        reader_.refuse(field, fmt::format("brings the model above {} triangles", max_vertices), "use a smaller model");
+        reader_.refuse(field, fmt::format("brings the model above {} triangles", max_vertices),
+                       "use a smaller model");
     const std::uint32_t material = primitive.material < 0 ? static_cast<std::uint32_t>(gltf_.materials.size())
                                                           : static_cast<std::uint32_t>(primitive.material);
-    mesh_.primitives.push_back({static_cast<std::uint32_t>(mesh_.indices.size()), static_cast<std::uint32_t>(3 * triangles),
-                                material});
+    mesh_.primitives.push_back({static_cast<std::uint32_t>(mesh_.indices.size()),
+                                static_cast<std::uint32_t>(3 * triangles), material});
     for (std::size_t t = 0; t < triangles; ++t) {
         std::size_t a = list ? 3 * t : fan ? 0 : t, b = list ? a + 1 : t + 1, c = list ? a + 2 : t + 2;
         if (!list && !fan && t % 2 == 1)

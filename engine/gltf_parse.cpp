@@ -47,12 +47,14 @@ void check_json_size(const std::filesystem::path& path, std::string_view json)
     }
 }
 
-/// The JSON of a .glb, after checking the container's lengths (tinygltf 2.7 reads 8 bytes past a BIN chunk that is cut short).
+/// The JSON of a .glb, after checking the container's lengths (tinygltf 2.7 reads 8 bytes past a BIN chunk
+/// that is cut short).
 std::string_view json_of_container(const std::filesystem::path& path, std::string_view bytes)
 {
     const auto word = [&](std::size_t at) {
         std::uint32_t value;
-        std::memcpy(&value, bytes.data() + at, sizeof value); // little-endian, as are the machines we build on
+        std::memcpy(&value, bytes.data() + at,
+                    sizeof value); // little-endian, as are the machines we build on
         return std::size_t{value};
     };
     if (bytes.size() < 20)
@@ -61,7 +63,8 @@ std::string_view json_of_container(const std::filesystem::path& path, std::strin
         refuse(path, fmt::format("is version {} of binary glTF", word(4)));
     const std::size_t length = word(8), json_length = word(12);
     if (length > bytes.size())
-        refuse(path, fmt::format("the file is cut short: {} bytes of {}", bytes.size(), length), "copy or export it again");
+        refuse(path, fmt::format("the file is cut short: {} bytes of {}", bytes.size(), length),
+               "copy or export it again");
     if (length < 20 || json_length > length - 20)
         refuse(path, "its JSON chunk reaches beyond the end of the file");
     const std::size_t next = 20 + json_length;
@@ -80,13 +83,16 @@ struct Folder
 bool external_file_exists(const std::string& name, void* user)
 {
     Folder& context = *static_cast<Folder*>(user);
+    if (!name.starts_with(context.folder.string() + "/"))
+        return false; // tinygltf also tries the working folder
     std::error_code error;
     const auto found = std::filesystem::weakly_canonical(name, error);
     const auto folder = std::filesystem::weakly_canonical(context.folder, error);
     const auto relative = found.lexically_relative(folder);
     if (error || relative.empty() || *relative.begin() == "..") {
         if (!context.problem)
-            context.problem.emplace(context.file.string(), fmt::format("refers to {}, outside its own folder", name),
+            context.problem.emplace(context.file.string(),
+                                    fmt::format("refers to {}, outside its own folder", name),
                                     "put all its files into one folder, or export it as .glb");
         return false;
     }
@@ -106,9 +112,10 @@ bool read_external_file(std::vector<unsigned char>* bytes, std::string*, const s
     }
 }
 
-/// Keeps the bytes of a picture outside the buffers. One in a buffer view is left where it is: its range is unchecked here.
-bool keep_picture(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes, int size,
-                  void*)
+/// Keeps the bytes of a picture outside the buffers. One in a buffer view is left where it is: its range is
+/// unchecked here.
+bool keep_picture(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
+                  const unsigned char* bytes, int size, void*)
 {
     if (image->bufferView < 0)
         image->image.assign(bytes, bytes + size);
@@ -117,12 +124,15 @@ bool keep_picture(tinygltf::Image* image, const int, std::string*, std::string*,
 
 void check_extensions(const std::filesystem::path& path, const tinygltf::Model& gltf)
 {
-    // What a head needs of these is read (transforms, quantised numbers) or has no say in how we shade it (materials).
+    // What a head needs of these is read (transforms, quantised numbers) or has no say in how we shade it
+    // (materials).
     constexpr std::array known = {"KHR_texture_transform", "KHR_mesh_quantization"};
     for (const std::string& extension : gltf.extensionsRequired) {
         if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression")
-            refuse(path, fmt::format("is compressed ({})", extension), "export the model without compression");
-        const bool material = extension.starts_with("KHR_materials_") && extension != "KHR_materials_pbrSpecularGlossiness";
+            refuse(path, fmt::format("is compressed ({})", extension),
+                   "export the model without compression");
+        const bool material =
+            extension.starts_with("KHR_materials_") && extension != "KHR_materials_pbrSpecularGlossiness";
         if (!material && std::find(known.begin(), known.end(), extension) == known.end())
             refuse(path, fmt::format("requires the glTF extension {}, which is not read", extension),
                    "export the model without it");
@@ -143,16 +153,18 @@ tinygltf::Model parse_gltf(const std::filesystem::path& path)
 
     Folder context{path, path.has_parent_path() ? path.parent_path() : ".", std::nullopt};
     tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks({external_file_exists, [](const std::string& name, void*) { return name; }, read_external_file,
-                           tinygltf::WriteWholeFile, &context});
+    parser.SetFsCallbacks({external_file_exists, [](const std::string& name, void*) { return name; },
+                           read_external_file, tinygltf::WriteWholeFile, &context});
     parser.SetImageLoader(keep_picture, nullptr);
     tinygltf::Model gltf;
     std::string errors, warnings;
     bool parsed = false;
     try {
         const auto size = static_cast<unsigned>(bytes.size());
-        parsed = binary ? parser.LoadBinaryFromMemory(&gltf, &errors, &warnings, bytes.data(), size, context.folder.string())
-                        : parser.LoadASCIIFromString(&gltf, &errors, &warnings, text.data(), size, context.folder.string());
+        parsed = binary ? parser.LoadBinaryFromMemory(&gltf, &errors, &warnings, bytes.data(), size,
+                                                      context.folder.string())
+                        : parser.LoadASCIIFromString(&gltf, &errors, &warnings, text.data(), size,
+                                                     context.folder.string());
     } catch (const std::exception& exception) {
         errors = exception.what();
     }

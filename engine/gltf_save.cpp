@@ -20,9 +20,10 @@ class Writer
 
   private:
     int add_view(const void* bytes, std::size_t size, int target);
-    int add_accessor(const void* values, std::size_t count, std::size_t element_size, int component_type, int type, int target);
+    int add_accessor(const void* values, std::size_t count, std::size_t element_size, int component_type,
+                     int type, int target);
     template <typename T>
-    int add_attribute(T Vertex::* member, int type);
+    int add_attribute(T Vertex::*member, int type);
     int add_texture(const cv::Mat& picture_in_opencv_order);
     void add_material(const Material& material);
 
@@ -45,7 +46,8 @@ int Writer::add_view(const void* bytes, std::size_t size, int target)
     return static_cast<int>(gltf_.bufferViews.size() - 1);
 }
 
-int Writer::add_accessor(const void* values, std::size_t count, std::size_t element_size, int component_type, int type, int target)
+int Writer::add_accessor(const void* values, std::size_t count, std::size_t element_size, int component_type,
+                         int type, int target)
 {
     tinygltf::Accessor accessor;
     accessor.bufferView = add_view(values, count * element_size, target);
@@ -57,7 +59,7 @@ int Writer::add_accessor(const void* values, std::size_t count, std::size_t elem
 }
 
 template <typename T>
-int Writer::add_attribute(T Vertex::* member, int type)
+int Writer::add_attribute(T Vertex::*member, int type)
 {
     std::vector<T> values;
     values.reserve(model_.vertices.size());
@@ -103,7 +105,9 @@ void Writer::add_material(const Material& material)
     out.pbrMetallicRoughness.baseColorFactor = {factor.r, factor.g, factor.b, factor.a};
     out.pbrMetallicRoughness.metallicFactor = 0;
     out.pbrMetallicRoughness.roughnessFactor = material.roughness;
-    out.alphaMode = material.alpha == AlphaMode::Mask ? "MASK" : material.alpha == AlphaMode::Blend ? "BLEND" : "OPAQUE";
+    out.alphaMode = material.alpha == AlphaMode::Mask    ? "MASK"
+                    : material.alpha == AlphaMode::Blend ? "BLEND"
+                                                         : "OPAQUE";
     out.alphaCutoff = material.alpha_cutoff;
     out.doubleSided = material.double_sided;
     gltf_.materials.push_back(out);
@@ -117,7 +121,8 @@ tinygltf::Model Writer::document()
         {"TANGENT", add_attribute(&Vertex::tangent, TINYGLTF_TYPE_VEC4)},
         {"TEXCOORD_0", add_attribute(&Vertex::uv, TINYGLTF_TYPE_VEC2)},
     };
-    auto& positions = gltf_.accessors[attributes.at("POSITION")]; // the standard wants the bounds of positions
+    auto& positions =
+        gltf_.accessors[attributes.at("POSITION")]; // the standard wants the bounds of positions
     positions.minValues = {model_.min.x, model_.min.y, model_.min.z};
     positions.maxValues = {model_.max.x, model_.max.y, model_.max.z};
 
@@ -126,9 +131,9 @@ tinygltf::Model Writer::document()
     for (const Primitive& primitive : model_.primitives) {
         tinygltf::Primitive out;
         out.attributes = attributes;
-        out.indices = add_accessor(model_.indices.data() + primitive.first_index, primitive.index_count, sizeof(std::uint32_t),
-                                   TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
-                                   TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+        out.indices = add_accessor(model_.indices.data() + primitive.first_index, primitive.index_count,
+                                   sizeof(std::uint32_t), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                                   TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
         out.material = static_cast<int>(primitive.material);
         out.mode = TINYGLTF_MODE_TRIANGLES;
         mesh.primitives.push_back(out);
@@ -156,7 +161,8 @@ void save_model(const std::filesystem::path& path, const Model& model)
         const bool written = tinygltf::TinyGLTF().WriteGltfSceneToStream(&document, stream, false, true);
         stream.close();
         if (!written || !stream)
-            throw cicatrix::InputError(path.string(), "cannot be written", "choose a folder with room that can be written to");
+            throw cicatrix::InputError(path.string(), "cannot be written",
+                                       "choose a folder with room that can be written to");
     });
 }
 

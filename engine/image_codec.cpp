@@ -16,7 +16,8 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 constexpr std::uint32_t max_side = 16384; // px
 
-/// libpng, libjpeg and libtiff print to stderr from inside OpenCV and offer no switch; this closes it to them.
+/// libpng, libjpeg and libtiff print to stderr from inside OpenCV and offer no switch; this closes it to
+/// them.
 class QuietCodecs
 {
   public:
@@ -54,9 +55,9 @@ class QuietCodecs
 
 struct Header
 {
-    const char* format = nullptr;         // null: none we read
-    bool complete = true;                 // its end marker is there
-    std::uint32_t width = 0, height = 0;  // 0: not known before decoding
+    const char* format = nullptr;        // null: none we read
+    bool complete = true;                // its end marker is there
+    std::uint32_t width = 0, height = 0; // 0: not known before decoding
 };
 
 std::uint32_t big_endian(Bytes bytes, std::size_t at, int count)
@@ -69,12 +70,14 @@ std::uint32_t big_endian(Bytes bytes, std::size_t at, int count)
 
 std::uint32_t little_endian(Bytes bytes, std::size_t at)
 {
-    return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | static_cast<std::uint32_t>(bytes[at + 3]) << 24;
+    return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 |
+           static_cast<std::uint32_t>(bytes[at + 3]) << 24;
 }
 
 bool starts_with(Bytes bytes, std::string_view magic, std::size_t at = 0)
 {
-    return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
+    return bytes.size() >= at + magic.size() &&
+           std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
 }
 
 /// Walks the chunks up to IEND.
@@ -98,13 +101,15 @@ Header png_header(Bytes bytes)
     return header;
 }
 
-/// Walks the markers up to EOI. Files of telephones carry more behind it (a film, a second picture): that is allowed.
+/// Walks the markers up to EOI. Files of telephones carry more behind it (a film, a second picture): that is
+/// allowed.
 Header jpeg_header(Bytes bytes)
 {
     Header header{"JPEG", false};
     for (std::size_t at = 2; at + 2 <= bytes.size();) {
         const std::uint8_t marker = bytes[at + 1];
-        const bool standalone = marker == 0x00 || marker == 0x01 || marker == 0xff || (marker >= 0xd0 && marker <= 0xd7);
+        const bool standalone =
+            marker == 0x00 || marker == 0x01 || marker == 0xff || (marker >= 0xd0 && marker <= 0xd7);
         if (bytes[at] != 0xff || standalone) { // coded data, its escapes and restarts, fill bytes
             ++at;
             continue;
@@ -115,7 +120,8 @@ Header jpeg_header(Bytes bytes)
         }
         if (at + 4 > bytes.size())
             break;
-        const bool frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+        const bool frame =
+            marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
         if (frame && at + 9 <= bytes.size()) {
             header.height = big_endian(bytes, at + 5, 2);
             header.width = big_endian(bytes, at + 7, 2);
@@ -135,7 +141,8 @@ Header header_of(Bytes bytes)
     if (starts_with(bytes, "RIFF"sv) && starts_with(bytes, "WEBP"sv, 8))
         return {"WebP", little_endian(bytes, 4) <= bytes.size() - 8};
     if (starts_with(bytes, "BM"sv) && bytes.size() >= 26) {
-        const auto height = static_cast<std::int32_t>(little_endian(bytes, 22)); // negative: stored top row first
+        const auto height =
+            static_cast<std::int32_t>(little_endian(bytes, 22)); // negative: stored top row first
         return {"BMP", little_endian(bytes, 2) <= bytes.size(), little_endian(bytes, 18),
                 height < 0 ? 0u - static_cast<std::uint32_t>(height) : static_cast<std::uint32_t>(height)};
     }
@@ -159,19 +166,22 @@ cv::Mat decode_picture(Bytes bytes, Channels channels, std::string_view where)
     if (!header.format)
         throw cicatrix::InputError(where, "is not a picture of a known format", "use PNG or JPEG");
     if (!header.complete)
-        throw cicatrix::InputError(where, fmt::format("the {} picture is cut short", header.format), "copy or export it again");
+        throw cicatrix::InputError(where, fmt::format("the {} picture is cut short", header.format),
+                                   "copy or export it again");
     check_size(header.width, header.height, where);
 
     cv::Mat picture;
     try {
         const QuietCodecs quiet;
-        const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8U, const_cast<std::uint8_t*>(bytes.data()));
+        const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8U,
+                             const_cast<std::uint8_t*>(bytes.data()));
         picture = cv::imdecode(buffer, channels == Channels::Color ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED);
     } catch (const cv::Exception&) {
         picture.release(); // reported below, with what OpenCV merely returns as empty
     }
     if (picture.empty())
-        throw cicatrix::InputError(where, fmt::format("the {} picture is damaged", header.format), "copy or export it again");
+        throw cicatrix::InputError(where, fmt::format("the {} picture is damaged", header.format),
+                                   "copy or export it again");
     check_size(picture.cols, picture.rows, where);
     if (picture.depth() == CV_16U)
         picture.convertTo(picture, CV_8U, 1.0 / 257.0);

@@ -15,9 +15,10 @@ enum class Channels : std::uint8_t
     AsStored, // one, three or four channels, not turned
 };
 
-/// Decodes PNG, JPEG, WebP, BMP or TIFF to 8 bits a channel in OpenCV's order (BGR, BGRA). Throws cicatrix::InputError at
-/// `where` for truncated, malformed, unknown or absurdly large (> 16384 px a side) pictures. Prints nothing: while it runs,
-/// the process's stderr is closed to the codecs, which otherwise write there.
+/// Decodes PNG, JPEG, WebP, BMP or TIFF to 8 bits a channel in OpenCV's order (BGR, BGRA). Throws
+/// cicatrix::InputError at `where` for truncated, malformed, unknown or absurdly large (> 16384 px a side)
+/// pictures. Prints nothing: while it runs, the process's stderr is closed to the codecs, which otherwise
+/// write there.
 cv::Mat decode_picture(std::span<const std::uint8_t> bytes, Channels channels, std::string_view where);
 
 /// PNG of an 8-bit picture in OpenCV's order.

@@ -20,7 +20,8 @@ void write_encoded(const std::filesystem::path& path, std::span<const std::uint8
     write_atomically(path, [&](const std::filesystem::path& temporary) { write_file(temporary, bytes); });
 }
 
-void write_converted(const std::filesystem::path& path, const cv::Mat& picture, cv::ColorConversionCodes to_opencv)
+void write_converted(const std::filesystem::path& path, const cv::Mat& picture,
+                     cv::ColorConversionCodes to_opencv)
 {
     cv::Mat converted;
     cv::cvtColor(picture, converted, to_opencv);
@@ -54,15 +55,25 @@ cv::Mat1b read_mask(const std::filesystem::path& path)
     return product > 255 * 255 / 2;
 }
 
-void write_png(const std::filesystem::path& path, const cv::Mat3b& rgb) { write_converted(path, rgb, cv::COLOR_RGB2BGR); }
+void write_png(const std::filesystem::path& path, const cv::Mat3b& rgb)
+{
+    write_converted(path, rgb, cv::COLOR_RGB2BGR);
+}
 
-void write_png(const std::filesystem::path& path, const cv::Mat4b& rgba) { write_converted(path, rgba, cv::COLOR_RGBA2BGRA); }
+void write_png(const std::filesystem::path& path, const cv::Mat4b& rgba)
+{
+    write_converted(path, rgba, cv::COLOR_RGBA2BGRA);
+}
 
-void write_png(const std::filesystem::path& path, const cv::Mat1b& gray) { write_encoded(path, encode_png(gray)); }
+void write_png(const std::filesystem::path& path, const cv::Mat1b& gray)
+{
+    write_encoded(path, encode_png(gray));
+}
 
 void write_exr(const std::filesystem::path& path, const cv::Mat3f& rgb)
 {
-    // OpenCV keeps its OpenEXR codec locked (for fear of hostile files, which we do not read) until this is set.
+    // OpenCV keeps its OpenEXR codec locked (for fear of hostile files, which we do not read) until this is
+    // set.
     setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
     cv::Mat bgr;
     cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
@@ -76,9 +87,11 @@ std::filesystem::path temporary_beside(const std::filesystem::path& path)
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
     std::error_code error;
     if (!std::filesystem::is_directory(folder, error))
-        throw cicatrix::InputError(path.string(), fmt::format("there is no folder {}", folder.string()), "make it first");
+        throw cicatrix::InputError(path.string(), fmt::format("there is no folder {}", folder.string()),
+                                   "make it first");
     if (access(folder.c_str(), W_OK) != 0 || std::filesystem::is_directory(path, error))
-        throw cicatrix::InputError(path.string(), "cannot be written there", "choose a folder that can be written to");
+        throw cicatrix::InputError(path.string(), "cannot be written there",
+                                   "choose a folder that can be written to");
     static std::atomic<unsigned> count = 0;
     std::filesystem::path temporary = path;
     // The extension stays last, for writers that choose a format by it.

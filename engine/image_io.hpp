@@ -1,4 +1,5 @@
-// Pictures in and out of files. Reading checks size and format at the door; writing is atomic (temporary name, then rename).
+// Pictures in and out of files. Reading checks size and format at the door; writing is atomic (temporary
+// name, then rename).
 #pragma once
 #include <filesystem>
 #include <opencv2/core.hpp>
@@ -7,8 +8,9 @@
 
 namespace engine {
 
-/// PNG or JPEG (and whatever else OpenCV reads) as 8-bit sRGB, upright (EXIF orientation applied). Alpha is dropped.
-/// Throws cicatrix::InputError for a missing, truncated, malformed or absurdly large (> 16384 px a side) file. Never prints.
+/// PNG or JPEG (and whatever else OpenCV reads) as 8-bit sRGB, upright (EXIF orientation applied). Alpha is
+/// dropped. Throws cicatrix::InputError for a missing, truncated, malformed or absurdly large (> 16384 px a
+/// side) file. Never prints.
 cv::Mat3b read_rgb(const std::filesystem::path& path);
 /// A mask: any picture; 255 where luminance (times alpha, when there is alpha) is above one half, else 0.
 cv::Mat1b read_mask(const std::filesystem::path& path);
@@ -23,8 +25,9 @@ void write_exr(const std::filesystem::path& path, const cv::Mat3f& rgb);
 std::filesystem::path temporary_beside(const std::filesystem::path& path);
 void rename_over(const std::filesystem::path& temporary, const std::filesystem::path& path);
 
-/// Runs `write(temporary)` and renames the temporary to `path`; on any failure the temporary is gone and `path` is as it was.
-/// `write` takes the temporary's path, which lies beside `path`. Failures to write or rename are cicatrix::InputError.
+/// Runs `write(temporary)` and renames the temporary to `path`; on any failure the temporary is gone and
+/// `path` is as it was. `write` takes the temporary's path, which lies beside `path`. Failures to write or
+/// rename are cicatrix::InputError.
 template <typename Write>
 void write_atomically(const std::filesystem::path& path, Write&& write)
 {

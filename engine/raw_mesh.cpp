@@ -27,7 +27,10 @@ struct Key
     };
 };
 
-std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value + 0.0f); } // -0 becomes +0
+std::uint32_t bits_of(float value)
+{
+    return std::bit_cast<std::uint32_t>(value + 0.0f);
+} // -0 becomes +0
 
 /// Numbers every vertex by its class of equal keys.
 template <std::size_t N, typename KeyOf>
@@ -37,7 +40,8 @@ std::vector<std::uint32_t> weld(std::size_t vertex_count, KeyOf&& key_of)
     classes.reserve(vertex_count);
     std::vector<std::uint32_t> class_of(vertex_count);
     for (std::size_t v = 0; v < vertex_count; ++v)
-        class_of[v] = classes.try_emplace(key_of(v), static_cast<std::uint32_t>(classes.size())).first->second;
+        class_of[v] =
+            classes.try_emplace(key_of(v), static_cast<std::uint32_t>(classes.size())).first->second;
     return class_of;
 }
 
@@ -64,7 +68,8 @@ double corner_angle(glm::dvec3 corner, glm::dvec3 a, glm::dvec3 b)
 
 glm::dvec3 any_perpendicular(glm::dvec3 normal)
 {
-    const glm::dvec3 across = glm::cross(glm::dvec3(0, 1, 0), normal); // horizontal: +x on a face that looks along +z
+    const glm::dvec3 across =
+        glm::cross(glm::dvec3(0, 1, 0), normal); // horizontal: +x on a face that looks along +z
     if (glm::length(across) > 1e-3)
         return glm::normalize(across);
     return glm::normalize(glm::cross(normal, glm::dvec3(0, 0, 1)));
@@ -96,8 +101,10 @@ struct ChartFrame
 ChartFrame chart_frame(const RawMesh& mesh, const Triangle& t)
 {
     const glm::dvec2 uv0 = mesh.vertices[t.v[0]].uv;
-    const glm::dvec2 d1 = glm::dvec2(mesh.vertices[t.v[1]].uv) - uv0, d2 = glm::dvec2(mesh.vertices[t.v[2]].uv) - uv0;
-    // v runs down in glTF and the bitangent is its reverse (up), as in an ordinary right-handed frame: hence the minus.
+    const glm::dvec2 d1 = glm::dvec2(mesh.vertices[t.v[1]].uv) - uv0,
+                     d2 = glm::dvec2(mesh.vertices[t.v[2]].uv) - uv0;
+    // v runs down in glTF and the bitangent is its reverse (up), as in an ordinary right-handed frame: hence
+    // the minus.
     const double area = -(d1.x * d2.y - d1.y * d2.x);
     const glm::dvec3 along = ((t.p[1] - t.p[0]) * -d2.y + (t.p[2] - t.p[0]) * d1.y) * (area < 0 ? -1.0 : 1.0);
     const double length = glm::length(along);
@@ -118,7 +125,8 @@ std::size_t drop_degenerate(RawMesh& mesh)
             const Triangle t = triangle_at(mesh, i);
             const glm::dvec3 a = t.p[1] - t.p[0], b = t.p[2] - t.p[0];
             const double longest = std::max(glm::dot(a, a), glm::dot(b, b));
-            if (!(glm::length(glm::cross(a, b)) > 1e-9 * longest)) { // relative: the size of the model does not matter
+            if (!(glm::length(glm::cross(a, b)) > 1e-9 * longest))
+            { // relative: the size of the model does not matter
                 ++dropped;
                 continue;
             }
@@ -161,7 +169,8 @@ bool complete_uvs(RawMesh& mesh)
             continue;
         const glm::vec3 p = mesh.vertices[v].position - middle;
         const float angle = p.x == 0 && p.z == 0 ? 0.0f : std::atan2(p.x, p.z);
-        mesh.vertices[v].uv = {0.5f + angle / glm::two_pi<float>(), (high.y - mesh.vertices[v].position.y) / height};
+        mesh.vertices[v].uv = {0.5f + angle / glm::two_pi<float>(),
+                               (high.y - mesh.vertices[v].position.y) / height};
     }
     std::unordered_map<std::uint32_t, std::uint32_t> past_seam; // vertex -> its double with u + 1
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -244,18 +253,21 @@ bool complete_tangents(RawMesh& mesh)
 
     const auto corner = weld<9>(mesh.vertices.size(), [&](std::size_t v) {
         const Vertex& x = mesh.vertices[v];
-        return Key<9>{{bits_of(x.position.x), bits_of(x.position.y), bits_of(x.position.z), bits_of(x.normal.x),
-                       bits_of(x.normal.y), bits_of(x.normal.z), bits_of(x.uv.x), bits_of(x.uv.y), handed[v]}};
+        return Key<9>{{bits_of(x.position.x), bits_of(x.position.y), bits_of(x.position.z),
+                       bits_of(x.normal.x), bits_of(x.normal.y), bits_of(x.normal.z), bits_of(x.uv.x),
+                       bits_of(x.uv.y), handed[v]}};
     });
     std::vector<glm::dvec3> sum(mesh.vertices.size(), glm::dvec3(0.0));
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         const Triangle t = triangle_at(mesh, i);
         for (int c = 0; c < 3; ++c) {
             const glm::dvec3 normal = mesh.vertices[t.v[c]].normal;
-            const glm::dvec3 in_plane = frames[i / 3].along_u - normal * glm::dot(normal, frames[i / 3].along_u);
+            const glm::dvec3 in_plane =
+                frames[i / 3].along_u - normal * glm::dot(normal, frames[i / 3].along_u);
             const double length = glm::length(in_plane);
             if (length > 1e-9)
-                sum[corner[t.v[c]]] += in_plane / length * corner_angle(t.p[c], t.p[(c + 1) % 3], t.p[(c + 2) % 3]);
+                sum[corner[t.v[c]]] +=
+                    in_plane / length * corner_angle(t.p[c], t.p[(c + 1) % 3], t.p[(c + 2) % 3]);
         }
     }
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {

@@ -41,14 +41,6 @@ double albedo_on_a_grid(WardModel model, double alpha_x, double alpha_y, const c
     return sum * 2 * pi / (rings * sectors);
 }
 
-Shading published()
-{
-    Shading shading;
-    shading.ward = WardModel::Published;
-    shading.translucency = TranslucencyModel::Published;
-    return shading;
-}
-
 constexpr DistanceRange anywhere{0, 1e9};
 
 } // namespace
@@ -137,8 +129,8 @@ TEST(Ward, NothingBelowTheHorizonAndNothingUndefinedAtIt)
 
 TEST(Translucency, PublishedWeightIsSeventeenAtTheLight)
 {
-    EXPECT_NEAR(translucency(published(), 0), 17.76, 0.01);  // .75^-10
-    EXPECT_NEAR(translucency(published(), 2), 0.2472, 1e-4); // 1.15^-10
+    EXPECT_NEAR(translucency(published_shading(), 0), 17.76, 0.01);  // .75^-10
+    EXPECT_NEAR(translucency(published_shading(), 2), 0.2472, 1e-4); // 1.15^-10
 }
 
 TEST(Translucency, BoundedWeightStaysUnderItsBoundAndMeetsThePublishedWhereThatIsSmall)
@@ -148,7 +140,7 @@ TEST(Translucency, BoundedWeightStaysUnderItsBoundAndMeetsThePublishedWhereThatI
     EXPECT_NEAR(bound, 0.3 / 0.7, 1e-15);
     double last = bound;
     for (double d = 0; d < 50; d += 0.25) {
-        const double w = translucency(published(), d), b = translucency(bounded, d);
+        const double w = translucency(published_shading(), d), b = translucency(bounded, d);
         EXPECT_LE(b, std::min(bound, w));
         EXPECT_LE(b, last); // farther is never brighter
         EXPECT_LE(w - b, w * std::pow(w / bound, 4) / 4 + 1e-15) << d;
@@ -214,7 +206,7 @@ TEST(Shade, PaperSceneAddsUp)
     light.position = {0, 0, 2};
     SurfacePoint point;
     point.albedo = {0.5, 0.25, 0};
-    const Color c = shade(published(), light, point, 1);
+    const Color c = shade(published_shading(), light, point, 1);
     const double diffuse = 0.7 + 0.7 * std::pow(1.15, -10), gloss = 0.8 / (4 * pi * 0.16);
     EXPECT_NEAR(c[0], 0.5 * diffuse + gloss, 1e-12);
     EXPECT_NEAR(c[2], gloss, 1e-12);
@@ -285,9 +277,10 @@ TEST(Shade, BrightestPointFacingTheLightReturnsNoMoreThanItGets)
     }
 }
 
-TEST(ShadingInput, PaperValuesAreAccepted)
+TEST(ShadingInput, PresetsAreAccepted)
 {
-    EXPECT_NO_THROW(check_shading(Shading{}, anywhere, "scene.json: /shading"));
+    for (const Shading& shading : {Shading{}, published_shading(), skin_shading()})
+        EXPECT_NO_THROW(check_shading(shading, anywhere, "scene.json: /shading"));
     EXPECT_NO_THROW(check_light(Light{}, "scene.json: /lights/0"));
 }
 

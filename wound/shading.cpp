@@ -48,6 +48,24 @@ double Shading::translucency_bound() const
     return rho_ts > 0 ? std::max(0.0, 1 - rho_d) / rho_ts : 0;
 }
 
+Shading published_shading()
+{
+    Shading shading;
+    shading.ward = WardModel::Published;
+    shading.translucency = TranslucencyModel::Published;
+    return shading;
+}
+
+Shading skin_shading()
+{
+    Shading shading;
+    shading.rho_d = 0.8;
+    shading.rho_ts = 0.25;
+    shading.rho_s = 0.2;
+    shading.alpha_x = shading.alpha_y = 0.3;
+    return shading;
+}
+
 DistanceMap paper_distance(double object_width_m, double light_distance_m)
 {
     const double scale = paper_width / object_width_m;

@@ -1,0 +1,3 @@
+// Depth alone: nothing to colour.
+#version 460
+void main() {}
