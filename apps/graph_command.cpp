@@ -31,8 +31,8 @@ void print_schedules(const GraphOptions& options)
         engine::Graph graph;
         graph.readback("picture", stage.declare(graph, stage.wounds_on(day), stage.camera(), scene.shading, scene.size).picture);
         const engine::FrameResult frame = executor.run(graph);
-        fmt::print("day {:g}\n{}\n", day, engine::plan_to_text(graph, frame.plan));
-        dot = engine::plan_to_dot(graph, frame.plan);
+        fmt::print("day {:g}\n{}\n", day, engine::plan_text(graph, frame.plan));
+        dot = engine::plan_dot(graph, frame.plan);
     }
     if (!options.dot.empty())
         engine::write_atomically(options.dot, [&](const std::filesystem::path& path) { std::ofstream(path) << dot; });

@@ -167,8 +167,7 @@ std::vector<double> read_days(const json& value, const std::string& where)
 passes::Shading corrected_shading()
 {
     passes::Shading shading;
-    shading.model.rho_s = 0.28; // skin mirrors 3 to 4 %; the paper's .8 would make it plastic
-    shading.model.alpha_x = shading.model.alpha_y = 0.35;
+    shading.model = wound::skin_shading();
     shading.ambient = glm::vec3(0.14f, 0.145f, 0.16f);
     return shading;
 }
