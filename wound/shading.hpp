@@ -49,7 +49,7 @@ struct Shading
 
 /// Section 5 as printed.
 Shading published_shading();
-/// Coefficients for skin, chosen by eye on two heads: rho_s = .2 returns 5 % of the light, near skin's
+/// Coefficients for skin, chosen by eye: rho_s = .2 returns 5 % of the light, near skin's
 /// Fresnel reflectance (2.8 % at normal incidence for n = 1.4, more at grazing); the paper's .8 looks like
 /// glazed china.
 Shading skin_shading();
