@@ -1,4 +1,5 @@
-# Turns SPIR-V files into one C++ source with a table of name -> words. Variables: BINARIES (list), OUTPUT.
+# Turns SPIR-V files into one C++ source with a table of name -> words.
+# Variables: BINARIES (list), FUNCTION (in namespace engine, returns the table), OUTPUT.
 set(arrays "")
 set(table "")
 foreach(binary ${BINARIES})
@@ -10,7 +11,12 @@ foreach(binary ${BINARIES})
     string(APPEND arrays "constexpr std::uint32_t ${symbol}[] = {${words}};\n")
     string(APPEND table "    {\"${name}\", ${symbol}},\n")
 endforeach()
-file(WRITE ${OUTPUT}.tmp "// Generated from shaders/ by cmake/embed_shaders.cmake.
+# An array must have an element; the nameless one is never looked up.
+if(NOT table)
+    string(APPEND arrays "constexpr std::uint32_t none[] = {0};\n")
+    set(table "    {\"\", none},\n")
+endif()
+file(WRITE ${OUTPUT}.tmp "// Generated from SPIR-V by cmake/embed_shaders.cmake.
 #include \"engine/embedded_shaders.hpp\"
 namespace {
 ${arrays}
@@ -18,7 +24,8 @@ const engine::EmbeddedShader shaders[] = {
 ${table}};
 } // namespace
 namespace engine {
-std::span<const EmbeddedShader> embedded_shaders() { return shaders; }
+std::span<const EmbeddedShader> ${FUNCTION}();
+std::span<const EmbeddedShader> ${FUNCTION}() { return shaders; }
 } // namespace engine
 ")
 file(RENAME ${OUTPUT}.tmp ${OUTPUT})

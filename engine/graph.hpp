@@ -3,11 +3,15 @@
 //
 // A pass's key is computed from what it declares (shader, constants, uniforms, buffers, draws), so it cannot be
 // forgotten. A pass whose key and inputs are those of its last run is skipped; one whose outputs nobody needs is culled.
+//
+// Every image has exactly one writer, which writes all of it; passes may be declared in any order.
 #pragma once
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,6 +34,7 @@ struct ImageId
 struct ReadbackId
 {
     std::uint32_t index = ~0u;
+    bool valid() const { return index != ~0u; }
 };
 
 struct ImageDesc
@@ -40,16 +45,27 @@ struct ImageDesc
     bool operator==(const ImageDesc&) const = default;
 };
 
+/// An image made outside the graph, always ready to be sampled; `content` names what is in it and is never used twice.
+struct ExternalImage
+{
+    ImageDesc desc;
+    VkImageView view = VK_NULL_HANDLE;
+    std::uint64_t content = 0;
+};
+
 enum class Sampler : std::uint8_t
 {
-    LinearClamp, // bilinear, no mips
+    LinearClamp,      // bilinear, no mips
     LinearRepeatMips, // trilinear, repeat
     LinearClampMips,  // trilinear, clamp
     NearestClamp,
 };
 
-/// What a shader is given, by the names its source uses. A name the shader does not know is an error at declaration;
-/// a binding of the shader that is given no value is an error too.
+using Constant = std::variant<bool, std::int32_t, std::uint32_t, float>;
+
+/// What a shader is given, by the names its source uses (for a block: its instance name, or the block's own name when
+/// it has no instance name). A name the shader does not know is an error; so is a binding of the shader that is given
+/// no value. Giving a name twice replaces the first value.
 class Bindings
 {
   public:
@@ -64,7 +80,8 @@ class Bindings
         static_assert(std::is_trivially_copyable_v<T>);
         bytes(name, std::as_bytes(std::span(&value, 1)), false);
     }
-    /// Read-only storage buffer holding an array of T in scalar layout; copied.
+    /// Read-only storage buffer holding an array of T in scalar layout; copied. The shader sees an empty array as one
+    /// zeroed element.
     template <typename T>
     void buffer(std::string_view name, std::span<const T> values)
     {
@@ -72,7 +89,7 @@ class Bindings
         bytes(name, std::as_bytes(values), true);
     }
     /// Specialisation constant (constant_id) by its name in the shader: bool, int, uint or float.
-    void constant(std::string_view name, std::variant<bool, std::int32_t, std::uint32_t, float> value);
+    void constant(std::string_view name, Constant value);
 
     struct Sampled
     {
@@ -94,7 +111,7 @@ class Bindings
     std::vector<Sampled> sampled;
     std::vector<Stored> stored;
     std::vector<Data> data;
-    std::map<std::string, std::uint32_t, std::less<>> constants; // bit patterns
+    std::map<std::string, Constant, std::less<>> constants;
 
   private:
     void bytes(std::string_view name, std::span<const std::byte> value, bool storage);
@@ -104,9 +121,13 @@ class ComputePass : public Bindings
 {
   public:
     /// Number of invocations wanted; the group count follows from the shader's local size.
-    void dispatch(std::uint32_t width, std::uint32_t height);
-    std::string name, shader;
+    void dispatch(std::uint32_t invocations_x, std::uint32_t invocations_y);
+    /// Run it each frame even when nothing changed; what samples it follows.
+    void every_frame() { always = true; }
+
+    std::string name, shader; // shader: file name, "wound_texture.comp"
     std::uint32_t width = 0, height = 0;
+    bool always = false;
 };
 
 /// One draw. Bindings not given here are looked up in the pass.
@@ -115,10 +136,10 @@ class Draw : public Bindings
   public:
     std::string shader;               // stem: "forward" means forward.vert and forward.frag
     const MeshBuffer* mesh = nullptr; // null: `index_count` vertices without buffers (full-screen triangle: 3)
-    std::uint32_t first_index = 0, index_count = 0;
-    bool cull_back_faces = true;
-    bool blend = false;       // source alpha over
-    bool depth_test = true;   // used when the pass has a depth image
+    std::uint32_t first_index = 0, index_count = 0; // with a mesh, index_count 0 means up to its last index
+    bool cull_back_faces = true; // of a mesh; the front is counter-clockwise as seen in the picture
+    bool blend = false;          // source alpha over
+    bool depth_test = true;      // used when the pass has a depth image
     bool depth_write = true;
 };
 
@@ -141,9 +162,11 @@ class RasterPass : public Bindings
     std::vector<ColorTarget> colors;
     ImageId depth_image;
     float depth_clear = 1.0f;
-    std::vector<Draw> draws;
+    std::deque<Draw> draws; // references to them stay valid
     bool always = false;
 };
+
+using Pass = std::variant<ComputePass, RasterPass>;
 
 /// The declaration of one frame. References returned by compute() and raster() stay valid while the Graph lives.
 class Graph
@@ -151,14 +174,34 @@ class Graph
   public:
     /// An image the graph owns. Its contents last from frame to frame under its name, so that its writer can be skipped.
     ImageId image(std::string_view name, const ImageDesc& desc);
-    /// An image made outside the graph, ready to be sampled.
+    /// An image made outside the graph, ready to be sampled. It must outlive the frame.
     ImageId import(std::string_view name, const Texture& texture);
+    ImageId import(std::string_view name, const ExternalImage& external);
     ComputePass& compute(std::string_view name, std::string_view shader);
     RasterPass& raster(std::string_view name);
     /// Copies an image to the host at the end of the frame. This is what makes a pass needed: whatever leads to no
     /// readback and no presentation is culled.
     ReadbackId readback(std::string_view name, ImageId image);
-    // ... the declaration's storage, read by schedule() and Executor, is completed in the implementation.
+    /// Leaves an image ready to be copied from (to a window, for instance) after the frame: Executor::presented().
+    void present(ImageId image);
+
+    struct Image
+    {
+        std::string name;
+        ImageDesc desc;
+        std::optional<ExternalImage> external;
+    };
+    struct Readback
+    {
+        std::string name;
+        ImageId image;
+    };
+    std::vector<Image> images;
+    std::deque<Pass> passes;
+    std::vector<Readback> readbacks;
+    std::vector<ImageId> presented;
 };
+
+const std::string& name_of(const Pass& pass);
 
 } // namespace engine

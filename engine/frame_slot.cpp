@@ -1,0 +1,200 @@
+#include "engine/frame_slot.hpp"
+
+#include "engine/vulkan_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstring>
+
+namespace engine {
+
+// ---- UploadArena -------------------------------------------------------------------------------------------------
+
+UploadedData UploadArena::add(std::span<const std::byte> bytes, VkDeviceSize size, VkDeviceSize alignment)
+{
+    constexpr VkDeviceSize block_size = 256 * 1024;
+    assert(size >= bytes.size());
+    used = (used + alignment - 1) / alignment * alignment;
+    while (block < blocks.size() && used + size > blocks[block].size())
+    {
+        ++block;
+        used = 0;
+    }
+    if (block == blocks.size())
+        blocks.emplace_back(device, std::max(size, block_size),
+                            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HostAccess::Write,
+                            "frame data");
+    std::byte* to = blocks[block].mapped().data() + used;
+    if (!bytes.empty())
+        std::memcpy(to, bytes.data(), bytes.size());
+    std::memset(to + bytes.size(), 0, size - bytes.size());
+    const UploadedData added{blocks[block].handle(), used, size};
+    used += size;
+    return added;
+}
+
+void UploadArena::reset()
+{
+    block = 0;
+    used = 0;
+}
+
+// ---- FrameSlot ---------------------------------------------------------------------------------------------------
+
+FrameSlot::FrameSlot(const Device& used) : device(used), uploads(used)
+{
+    try
+    {
+        const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                                .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                                .queueFamilyIndex = device.queue_family()};
+        check(vkCreateCommandPool(device.handle(), &pool_info, nullptr, &pool), "create a command pool");
+        const VkCommandBufferAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                                   .commandPool = pool,
+                                                   .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                                   .commandBufferCount = 1};
+        check(vkAllocateCommandBuffers(device.handle(), &allocate, &commands), "allocate a command buffer");
+        const VkFenceCreateInfo fence_info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+        check(vkCreateFence(device.handle(), &fence_info, nullptr, &fence), "create a fence");
+    }
+    catch (...)
+    {
+        destroy();
+        throw;
+    }
+}
+
+FrameSlot::~FrameSlot() { destroy(); }
+
+void FrameSlot::destroy()
+{
+    if (in_flight) // nothing can be done about a lost device here; everything is destroyed all the same
+        vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, UINT64_MAX);
+    vkDestroyQueryPool(device.handle(), queries, nullptr);
+    for (const VkDescriptorPool descriptors : descriptor_pools)
+        vkDestroyDescriptorPool(device.handle(), descriptors, nullptr);
+    vkDestroyFence(device.handle(), fence, nullptr);
+    vkDestroyCommandPool(device.handle(), pool, nullptr);
+}
+
+VkCommandBuffer FrameSlot::begin(std::uint32_t timestamps)
+{
+    wait();
+    uploads.reset();
+    for (const VkDescriptorPool descriptors : descriptor_pools)
+        check(vkResetDescriptorPool(device.handle(), descriptors, 0), "reset descriptors");
+    descriptor_pool = 0;
+    check(vkResetCommandPool(device.handle(), pool, 0), "reset commands");
+    if (device.timestamp_bits() > 0 && timestamps > query_capacity)
+    {
+        vkDestroyQueryPool(device.handle(), queries, nullptr);
+        queries = VK_NULL_HANDLE;
+        const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                         .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                         .queryCount = timestamps};
+        check(vkCreateQueryPool(device.handle(), &info, nullptr, &queries), "create timestamps");
+        query_capacity = timestamps;
+    }
+    query_count = 0;
+    ticks.clear();
+    const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    check(vkBeginCommandBuffer(commands, &info), "record a frame");
+    if (queries)
+        vkCmdResetQueryPool(commands, queries, 0, query_capacity);
+    return commands;
+}
+
+void FrameSlot::submit()
+{
+    check(vkEndCommandBuffer(commands), "record a frame");
+    check(vkResetFences(device.handle(), 1, &fence), "reset a fence");
+    const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+                                           .commandBuffer = commands};
+    const VkSubmitInfo2 info{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+                             .commandBufferInfoCount = 1,
+                             .pCommandBufferInfos = &buffer};
+    check(vkQueueSubmit2(device.queue(), 1, &info, fence), "submit a frame");
+    in_flight = true;
+}
+
+void FrameSlot::wait()
+{
+    if (!in_flight)
+        return;
+    check(vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "finish a frame");
+    in_flight = false;
+    read_ticks();
+}
+
+VkDescriptorSet FrameSlot::allocate_set(VkDescriptorSetLayout layout)
+{
+    for (;; ++descriptor_pool)
+    {
+        const bool fresh = descriptor_pool == descriptor_pools.size();
+        if (fresh)
+        {
+            constexpr std::array<VkDescriptorPoolSize, 4> sizes{{
+                {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 512},
+                {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 128},
+                {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 128},
+                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 128},
+            }};
+            const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                                  .maxSets = 64,
+                                                  .poolSizeCount = sizes.size(),
+                                                  .pPoolSizes = sizes.data()};
+            VkDescriptorPool made = VK_NULL_HANDLE;
+            check(vkCreateDescriptorPool(device.handle(), &info, nullptr, &made), "create descriptors");
+            descriptor_pools.push_back(made);
+        }
+        const VkDescriptorSetAllocateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                               .descriptorPool = descriptor_pools[descriptor_pool],
+                                               .descriptorSetCount = 1,
+                                               .pSetLayouts = &layout};
+        VkDescriptorSet set = VK_NULL_HANDLE;
+        const VkResult result = vkAllocateDescriptorSets(device.handle(), &info, &set);
+        if (result == VK_SUCCESS)
+            return set;
+        const bool full = result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL;
+        if (!full || fresh)
+            check(result, "allocate descriptors");
+    }
+}
+
+void FrameSlot::timestamp()
+{
+    if (!queries)
+        return;
+    assert(query_count < query_capacity);
+    // ALL_COMMANDS: once everything recorded before is done, so neighbouring passes never share time.
+    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, query_count++);
+}
+
+double FrameSlot::milliseconds(std::size_t from, std::size_t to) const
+{
+    const std::uint32_t bits = device.timestamp_bits();
+    const std::uint64_t mask = bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
+    const std::uint64_t passed = (ticks.at(to) - ticks.at(from)) & mask; // right across a wrap, too
+    return static_cast<double>(passed) * static_cast<double>(device.limits().timestampPeriod) * 1e-6;
+}
+
+const Buffer& FrameSlot::readback(VkDeviceSize bytes)
+{
+    if (readback_buffer.size() < bytes)
+        readback_buffer = Buffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostAccess::Read, "read-backs");
+    return readback_buffer;
+}
+
+void FrameSlot::read_ticks()
+{
+    if (query_count == 0)
+        return;
+    ticks.resize(query_count);
+    check(vkGetQueryPoolResults(device.handle(), queries, 0, query_count, ticks.size() * sizeof(ticks[0]),
+                                ticks.data(), sizeof(ticks[0]), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+          "read timestamps");
+}
+
+} // namespace engine

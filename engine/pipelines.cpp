@@ -1,0 +1,298 @@
+#include "engine/pipelines.hpp"
+
+#include "engine/device.hpp"
+#include "engine/mesh_buffer.hpp"
+#include "engine/vulkan_check.hpp"
+
+#include <bit>
+#include <fmt/format.h>
+
+namespace engine {
+
+namespace {
+
+std::uint32_t bit_pattern(const Constant& value)
+{
+    return std::visit(
+        [](auto v) -> std::uint32_t
+        {
+            if constexpr (std::is_same_v<decltype(v), bool>)
+                return v ? VK_TRUE : VK_FALSE;
+            else
+                return std::bit_cast<std::uint32_t>(v);
+        },
+        value);
+}
+
+void add_constants(PipelineKey& key, const ShaderGroup& group, const BindingScope& scope)
+{
+    for (const ShaderConstant& constant : group.constants)
+        if (const Constant* value = scope.constant(constant.name))
+            key.constants.emplace_back(constant.name, bit_pattern(*value));
+}
+
+/// One shader stage with its specialisation constants; lives until the pipeline is made.
+struct Stage
+{
+    Stage(VkDevice used, const Shader& shader, const PipelineKey& key) : device(used)
+    {
+        const VkShaderModuleCreateInfo module_info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                                   .codeSize = shader.words.size_bytes(),
+                                                   .pCode = shader.words.data()};
+        check(vkCreateShaderModule(device, &module_info, nullptr, &module),
+              fmt::format("load shader {}", shader.name));
+        for (const auto& [name, bits] : key.constants)
+            if (const ShaderConstant* constant = shader.interface.find_constant(name))
+            {
+                entries.push_back({.constantID = constant->id,
+                                   .offset = static_cast<std::uint32_t>(values.size() * sizeof(std::uint32_t)),
+                                   .size = sizeof(std::uint32_t)});
+                values.push_back(bits);
+            }
+        specialisation = {.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
+                          .pMapEntries = entries.data(),
+                          .dataSize = values.size() * sizeof(std::uint32_t),
+                          .pData = values.data()};
+        info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                .stage = shader.interface.stage,
+                .module = module,
+                .pName = "main",
+                .pSpecializationInfo = &specialisation};
+    }
+    ~Stage() { vkDestroyShaderModule(device, module, nullptr); }
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+
+    VkDevice device;
+    VkShaderModule module = VK_NULL_HANDLE;
+    std::vector<VkSpecializationMapEntry> entries;
+    std::vector<std::uint32_t> values;
+    VkSpecializationInfo specialisation{};
+    VkPipelineShaderStageCreateInfo info{};
+};
+
+/// Only the attributes the shader reads, out of one buffer of engine::Vertex.
+std::vector<VkVertexInputAttributeDescription> attributes(const ShaderInterface& vertex_shader)
+{
+    std::vector<VkVertexInputAttributeDescription> list;
+    for (const ShaderInput& input : vertex_shader.inputs)
+    {
+        constexpr std::array formats{VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R32G32B32_SFLOAT,
+                                     VK_FORMAT_R32G32B32A32_SFLOAT};
+        list.push_back({.location = input.location,
+                        .binding = 0,
+                        .format = formats[input.components - 1],
+                        .offset = vertex_attribute(input.name)->offset});
+    }
+    return list;
+}
+
+VkPipelineColorBlendAttachmentState blend_state(bool blend)
+{
+    return {.blendEnable = blend,
+            .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
+            .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+            .colorBlendOp = VK_BLEND_OP_ADD,
+            .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+            .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+            .alphaBlendOp = VK_BLEND_OP_ADD,
+            .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
+                              VK_COLOR_COMPONENT_A_BIT};
+}
+
+} // namespace
+
+Pipelines::Pipelines(const Device& used, const ShaderLibrary& shaders) : device(used), library(shaders)
+{
+    make_samplers();
+}
+
+Pipelines::~Pipelines()
+{
+    for (const auto& [key, pipeline] : pipelines)
+        vkDestroyPipeline(device.handle(), pipeline.handle, nullptr);
+    for (const auto& [name, layout] : layouts)
+    {
+        vkDestroyPipelineLayout(device.handle(), layout.pipeline, nullptr);
+        vkDestroyDescriptorSetLayout(device.handle(), layout.set, nullptr);
+    }
+    for (const VkSampler sampler : samplers)
+        vkDestroySampler(device.handle(), sampler, nullptr);
+}
+
+const Pipeline& Pipelines::get(const ComputePass& pass)
+{
+    PipelineKey key{.shader = pass.shader, .constants = {}, .colors = {}};
+    add_constants(key, library.group(pass.shader), BindingScope(pass));
+    return find_or_make(key);
+}
+
+const Pipeline& Pipelines::get(const Draw& draw, const RasterPass& pass, const Graph& graph)
+{
+    PipelineKey key{.shader = draw.shader,
+                    .constants = {},
+                    .colors = {},
+                    .cull_back_faces = draw.mesh && draw.cull_back_faces,
+                    .blend = draw.blend,
+                    .depth_test = pass.depth_image.valid() && draw.depth_test,
+                    .depth_write = pass.depth_image.valid() && draw.depth_write};
+    add_constants(key, library.group(draw.shader), BindingScope(draw, pass));
+    for (const RasterPass::ColorTarget& target : pass.colors)
+    {
+        key.colors.push_back(graph.images[target.image.index].desc.format);
+        key.samples = graph.images[target.image.index].desc.samples;
+    }
+    if (pass.depth_image.valid())
+    {
+        key.depth = graph.images[pass.depth_image.index].desc.format;
+        key.samples = graph.images[pass.depth_image.index].desc.samples;
+    }
+    return find_or_make(key);
+}
+
+const Pipeline& Pipelines::find_or_make(const PipelineKey& key)
+{
+    if (const auto known = pipelines.find(key); known != pipelines.end())
+        return known->second;
+    const ShaderGroup& group = library.group(key.shader);
+    const Layout& used = layout(group);
+    const bool compute = group.stages.front()->interface.stage == VK_SHADER_STAGE_COMPUTE_BIT;
+    const VkPipeline made =
+        compute ? make_compute(key, group, used.pipeline) : make_raster(key, group, used.pipeline);
+    device.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(made), key.shader);
+    return pipelines.emplace(key, Pipeline{made, used.pipeline, used.set, &group}).first->second;
+}
+
+const Pipelines::Layout& Pipelines::layout(const ShaderGroup& group)
+{
+    const auto [place, fresh] = layouts.try_emplace(group.name);
+    Layout& made = place->second; // the destructor finds it here, whatever happens below
+    if (made.pipeline)
+        return made;
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (const ShaderGroup::Binding& binding : group.bindings)
+        bindings.push_back({.binding = binding.binding,
+                            .descriptorType = binding.type,
+                            .descriptorCount = binding.count,
+                            .stageFlags = binding.stages});
+    const VkDescriptorSetLayoutCreateInfo set_info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                                   .bindingCount = static_cast<std::uint32_t>(bindings.size()),
+                                                   .pBindings = bindings.data()};
+    if (!made.set)
+        check(vkCreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &made.set), "create a set layout");
+    const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                          .setLayoutCount = 1,
+                                          .pSetLayouts = &made.set};
+    check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &made.pipeline), "create a pipeline layout");
+    return made;
+}
+
+VkPipeline Pipelines::make_compute(const PipelineKey& key, const ShaderGroup& group, VkPipelineLayout layout) const
+{
+    const Stage stage(device.handle(), *group.stages.front(), key);
+    const VkComputePipelineCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, .stage = stage.info, .layout = layout};
+    VkPipeline made = VK_NULL_HANDLE;
+    check(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &made),
+          fmt::format("compile {}", key.shader));
+    return made;
+}
+
+VkPipeline Pipelines::make_raster(const PipelineKey& key, const ShaderGroup& group, VkPipelineLayout layout) const
+{
+    const Stage vertex(device.handle(), *group.stages[0], key), fragment(device.handle(), *group.stages[1], key);
+    const std::array stages{vertex.info, fragment.info};
+    const auto inputs = attributes(group.stages[0]->interface);
+    const VkVertexInputBindingDescription vertices{
+        .binding = 0, .stride = sizeof(Vertex), .inputRate = VK_VERTEX_INPUT_RATE_VERTEX};
+    const VkPipelineVertexInputStateCreateInfo vertex_input{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+        .vertexBindingDescriptionCount = inputs.empty() ? 0u : 1u,
+        .pVertexBindingDescriptions = &vertices,
+        .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(inputs.size()),
+        .pVertexAttributeDescriptions = inputs.data()};
+    const VkPipelineInputAssemblyStateCreateInfo assembly{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+    const VkPipelineViewportStateCreateInfo viewport{.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+                                                     .viewportCount = 1,
+                                                     .scissorCount = 1};
+    const VkPipelineRasterizationStateCreateInfo rasterisation{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+        .polygonMode = VK_POLYGON_MODE_FILL,
+        .cullMode = static_cast<VkCullModeFlags>(key.cull_back_faces ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
+        .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
+        .lineWidth = 1.0f};
+    const VkPipelineMultisampleStateCreateInfo multisample{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+        .rasterizationSamples = static_cast<VkSampleCountFlagBits>(key.samples)};
+    const VkPipelineDepthStencilStateCreateInfo depth{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+        .depthTestEnable = key.depth_test,
+        .depthWriteEnable = key.depth_write,
+        .depthCompareOp = VK_COMPARE_OP_LESS_OR_EQUAL};
+    const std::vector<VkPipelineColorBlendAttachmentState> blends(key.colors.size(), blend_state(key.blend));
+    const VkPipelineColorBlendStateCreateInfo blend{.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+                                                    .attachmentCount = static_cast<std::uint32_t>(blends.size()),
+                                                    .pAttachments = blends.data()};
+    constexpr std::array dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    const VkPipelineDynamicStateCreateInfo dynamic{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+                                                   .dynamicStateCount = dynamic_states.size(),
+                                                   .pDynamicStates = dynamic_states.data()};
+    const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
+                                                  .colorAttachmentCount =
+                                                      static_cast<std::uint32_t>(key.colors.size()),
+                                                  .pColorAttachmentFormats = key.colors.data(),
+                                                  .depthAttachmentFormat = key.depth};
+    const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+                                            .pNext = &rendering,
+                                            .stageCount = stages.size(),
+                                            .pStages = stages.data(),
+                                            .pVertexInputState = &vertex_input,
+                                            .pInputAssemblyState = &assembly,
+                                            .pViewportState = &viewport,
+                                            .pRasterizationState = &rasterisation,
+                                            .pMultisampleState = &multisample,
+                                            .pDepthStencilState = &depth,
+                                            .pColorBlendState = &blend,
+                                            .pDynamicState = &dynamic,
+                                            .layout = layout};
+    VkPipeline made = VK_NULL_HANDLE;
+    check(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &made),
+          fmt::format("compile {}", key.shader));
+    return made;
+}
+
+void Pipelines::make_samplers()
+{
+    struct Kind
+    {
+        Sampler sampler;
+        VkFilter filter;
+        VkSamplerAddressMode address;
+        float max_lod;
+    };
+    constexpr std::array<Kind, 4> kinds{{
+        {Sampler::LinearClamp, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, 0.0f},
+        {Sampler::LinearRepeatMips, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_LOD_CLAMP_NONE},
+        {Sampler::LinearClampMips, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_LOD_CLAMP_NONE},
+        {Sampler::NearestClamp, VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, 0.0f},
+    }};
+    for (const Kind& kind : kinds)
+    {
+        const bool mips = kind.max_lod > 0.0f;
+        const VkSamplerCreateInfo info{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                       .magFilter = kind.filter,
+                                       .minFilter = kind.filter,
+                                       .mipmapMode =
+                                           mips ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST,
+                                       .addressModeU = kind.address,
+                                       .addressModeV = kind.address,
+                                       .addressModeW = kind.address,
+                                       .maxLod = kind.max_lod};
+        check(vkCreateSampler(device.handle(), &info, nullptr, &samplers[static_cast<std::size_t>(kind.sampler)]),
+              "create a sampler");
+    }
+}
+
+} // namespace engine
