@@ -25,7 +25,10 @@ std::vector<glm::vec3> evaluate(const std::vector<ShadingCase>& cases)
     pass.buffer<ShadingCase>("CaseBlock", cases);
     pass.store("results", results);
     pass.dispatch(width, height);
-    const cv::Mat4f values = run_and_read(graph, results);
+    const engine::ReadbackId back = graph.readback("results", results);
+    engine::Executor executor(gpu::device(), gpu::shaders());
+    const engine::FrameResult frame = executor.run(graph);
+    const cv::Mat4f values = frame.mat(back);
     std::vector<glm::vec3> out;
     for (std::size_t n = 0; n < cases.size(); ++n) {
         const cv::Vec4f v = values(static_cast<int>(n / width), static_cast<int>(n % width));
@@ -55,12 +58,14 @@ glm::vec3 direction(double z, double phi)
     return glm::vec3(glm::dvec3(across * std::cos(phi), across * std::sin(phi), z));
 }
 
+using ShadingOnGpu = gpu::Test;
+
 } // namespace
 
 // The lobe's exponent is (|h| / (slope h.z))^2, so a rounding of h by one float step moves it by more the
 // narrower the slope and the lower h. The test allows what 2 steps in either component of h can do, and 1e-5
 // besides.
-TEST(ShadingOnGpu, WardEqualsTheReferenceUpToTheRoundingOfItsHalfVector)
+TEST_F(ShadingOnGpu, WardEqualsTheReferenceUpToTheRoundingOfItsHalfVector)
 {
     constexpr double step = 2.5e-7;
     std::vector<ShadingCase> cases;
@@ -106,7 +111,7 @@ TEST(ShadingOnGpu, WardEqualsTheReferenceUpToTheRoundingOfItsHalfVector)
     RecordProperty("ward_worst_relative_error", std::to_string(worst));
 }
 
-TEST(ShadingOnGpu, TranslucencyEqualsTheReference)
+TEST_F(ShadingOnGpu, TranslucencyEqualsTheReference)
 {
     std::vector<ShadingCase> cases;
     for (shared::uint model : {shared::TRANSLUCENCY_PUBLISHED, shared::TRANSLUCENCY_BOUNDED})
@@ -143,12 +148,13 @@ TEST(ShadingOnGpu, TranslucencyEqualsTheReference)
         // log2 is good to 5e-7 near 1, and alpha d + beta to a float step; gamma multiplies both.
         const double relative = 5e-6 + 1e-6 * c.params.gamma + 3e-7 * std::abs(std::log2(reference + tiny));
         EXPECT_NEAR(values[n].x, reference, relative * reference + tiny) << "case " << n;
-        if (c.model == shared::TRANSLUCENCY_BOUNDED)
+        if (c.model == shared::TRANSLUCENCY_BOUNDED) {
             EXPECT_LE(values[n].x, c.params.translucency_bound * (1 + 1e-6f));
+        }
     }
 }
 
-TEST(ShadingOnGpu, BlendEqualsTheReferenceAndIsExactAtItsEnds)
+TEST_F(ShadingOnGpu, BlendEqualsTheReferenceAndIsExactAtItsEnds)
 {
     std::vector<ShadingCase> cases;
     for (shared::uint model : {shared::BLEND_PUBLISHED, shared::BLEND_CORRECTED})
@@ -170,14 +176,16 @@ TEST(ShadingOnGpu, BlendEqualsTheReferenceAndIsExactAtItsEnds)
                                                  to_double(c.b), to_double(c.c), c.number);
         EXPECT_LT(max_difference(values[n], reference), 1e-6) << "r = " << c.number;
         EXPECT_TRUE(is_color(values[n]));
-        if (c.number <= 0)
+        if (c.number <= 0) {
             EXPECT_EQ(values[n], c.a);
-        if (c.number >= 1 && c.model == shared::BLEND_CORRECTED)
+        }
+        if (c.number >= 1 && c.model == shared::BLEND_CORRECTED) {
             EXPECT_EQ(values[n], c.c);
+        }
     }
 }
 
-TEST(ShadingOnGpu, ColorCurvesEqualTheReference)
+TEST_F(ShadingOnGpu, ColorCurvesEqualTheReference)
 {
     std::vector<ShadingCase> cases;
     for (shared::uint formula :
@@ -203,7 +211,7 @@ TEST(ShadingOnGpu, ColorCurvesEqualTheReference)
         }
 }
 
-TEST(ShadingOnGpu, FramesAreOrthonormalWhateverTheInterpolatedVectorsAre)
+TEST_F(ShadingOnGpu, FramesAreOrthonormalWhateverTheInterpolatedVectorsAre)
 {
     const std::vector<glm::vec3> vectors = {
         {0, 0, 1}, {0, 0, -1},        {1, 0, 0},     {0.3f, -0.5f, 0.2f}, {1e-20f, 0, 0},
@@ -230,12 +238,13 @@ TEST(ShadingOnGpu, FramesAreOrthonormalWhateverTheInterpolatedVectorsAre)
                 EXPECT_NEAR(gram[column][row], row == column, 2e-6) << "case " << n;
         EXPECT_NEAR(glm::determinant(frame), cases[n].number, 1e-5) << "case " << n;
         const glm::dvec3 given(cases[n].a);
-        if (glm::length(given) > 1e-30)
+        if (glm::length(given) > 1e-30) {
             EXPECT_NEAR(glm::dot(normal, given) / glm::length(given), 1, 1e-6) << "case " << n;
+        }
     }
 }
 
-TEST(ShadingOnGpu, NormalsBentAwayAreTurnedJustIntoView)
+TEST_F(ShadingOnGpu, NormalsBentAwayAreTurnedJustIntoView)
 {
     std::vector<ShadingCase> cases;
     for (double z : {1.0, 0.5, 0.02, 0.0, -0.3, -0.999, -1.0}) {
@@ -249,12 +258,13 @@ TEST(ShadingOnGpu, NormalsBentAwayAreTurnedJustIntoView)
     for (std::size_t n = 0; n < cases.size(); ++n) {
         EXPECT_NEAR(glm::length(values[n]), 1, 1e-6);
         EXPECT_GE(values[n].z, 0.009f) << cases[n].a.z;
-        if (cases[n].a.z > 0.01f)
+        if (cases[n].a.z > 0.01f) {
             EXPECT_EQ(values[n], cases[n].a);
+        }
     }
 }
 
-TEST(ShadingOnGpu, WholeEquationEqualsTheReference)
+TEST_F(ShadingOnGpu, WholeEquationEqualsTheReference)
 {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -301,7 +311,7 @@ TEST(ShadingOnGpu, WholeEquationEqualsTheReference)
     }
 }
 
-TEST(ShadingOnGpu, NoLightNearNoFarNoneInsideTheSkinGivesAnythingButAColor)
+TEST_F(ShadingOnGpu, NoLightNearNoFarNoneInsideTheSkinGivesAnythingButAColor)
 {
     std::vector<ShadingCase> cases;
     for (shared::uint kind :

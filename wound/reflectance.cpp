@@ -1,9 +1,15 @@
 #include "wound/reflectance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <fmt/ranges.h>
+#include <utility>
 
+#include "wound/adding_doubling.hpp"
 #include "wound/fresnel.hpp"
+#include "wound/input_error.hpp"
+#include "wound/monte_carlo.hpp"
 
 namespace wound {
 
@@ -14,14 +20,6 @@ double boundary(double n_from, double n_to, DiffuseFresnel form)
     if (form == DiffuseFresnel::Polynomial && n_from != n_to)
         return diffuse_fresnel_polynomial(n_from, n_to);
     return diffuse_fresnel(n_from, n_to);
-}
-
-double first_surface(const Stack& stack, Incidence incidence, DiffuseFresnel form)
-{
-    if (stack.layers.empty())
-        return 0;
-    const double n = stack.layers.front().n;
-    return incidence == Incidence::Normal ? fresnel(stack.n_above, n, 1) : boundary(stack.n_above, n, form);
 }
 
 // ---- the paper's own equations
@@ -107,10 +105,8 @@ std::vector<Element> elements(const Stack& stack, Rung rung, double specular, Di
         above = layer.n;
     }
     result.push_back(interface_element(above, stack.n_below, form));
-    if (!stack.layers.empty()) {
-        result.front().r_top = specular;
-        result.front().t_down = 1 - specular;
-    }
+    result.front().r_top = specular;
+    result.front().t_down = 1 - specular;
     return result;
 }
 
@@ -146,36 +142,75 @@ Response two_stream(const Stack& stack, Rung rung, double specular, DiffuseFresn
 
 } // namespace
 
+namespace {
+constexpr std::array<std::pair<Rung, std::string_view>, 7> names{{
+    {Rung::Published, "published"},
+    {Rung::Clamped, "clamped"},
+    {Rung::Exponential, "exponential"},
+    {Rung::TwoStreamPaper, "two-stream-paper"},
+    {Rung::TwoStream, "two-stream"},
+    {Rung::AddingDoubling, "adding-doubling"},
+    {Rung::MonteCarlo, "monte-carlo"},
+}};
+} // namespace
+
+std::span<const Rung> all_rungs()
+{
+    static const auto rungs = [] {
+        std::array<Rung, names.size()> result{};
+        std::transform(names.begin(), names.end(), result.begin(),
+                       [](const auto& entry) { return entry.first; });
+        return result;
+    }();
+    return rungs;
+}
+
 std::string_view name(Rung rung)
 {
-    switch (rung) {
-    case Rung::Published:
-        return "published";
-    case Rung::Clamped:
-        return "clamped";
-    case Rung::Exponential:
-        return "exponential";
-    case Rung::TwoStreamPaper:
-        return "two-stream-paper";
-    case Rung::TwoStream:
-        return "two-stream";
-    }
-    return {};
+    return std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.first == rung; })
+        ->second;
 }
 
-Response reflectance(const Stack& stack, Rung rung, Incidence incidence, DiffuseFresnel form)
+Rung rung_named(std::string_view wanted)
 {
-    const double specular = first_surface(stack, incidence, form);
-    if (rung == Rung::TwoStream || rung == Rung::TwoStreamPaper)
-        return two_stream(stack, rung, specular, form);
-    return paper_response(stack, rung, specular, form);
+    for (const auto& [rung, text] : names)
+        if (text == wanted)
+            return rung;
+    std::vector<std::string_view> known;
+    for (Rung rung : all_rungs())
+        known.push_back(name(rung));
+    throw cicatrix::InputError(wanted, "not a reflectance model",
+                               fmt::format("known are {}", fmt::join(known, ", ")));
 }
 
-std::vector<double> diffuse_color(const SkinLayers& tissue, Rung rung)
+double specular_reflectance(const Stack& stack, const RungOptions& options)
+{
+    const double n = stack.layers.empty() ? stack.n_below : stack.layers.front().n;
+    if (options.incidence == Incidence::Normal)
+        return fresnel(stack.n_above, n, 1);
+    return boundary(stack.n_above, n, options.fresnel);
+}
+
+Response reflectance(const Stack& stack, Rung rung, const RungOptions& options)
+{
+    switch (rung) {
+    case Rung::AddingDoubling:
+        return adding_doubling(stack, options);
+    case Rung::MonteCarlo:
+        return monte_carlo(stack, options);
+    case Rung::TwoStream:
+    case Rung::TwoStreamPaper:
+        return two_stream(stack, rung, specular_reflectance(stack, options), options.fresnel);
+    default:
+        return paper_response(stack, rung, specular_reflectance(stack, options), options.fresnel);
+    }
+}
+
+std::vector<double> diffuse_color(const SkinLayers& tissue, Rung rung, const RungOptions& options)
 {
     std::vector<double> color;
     for (std::size_t c = 0; c < tissue.channels(); ++c)
-        color.push_back(reflectance(tissue.channel(c), rung).r_without_specular);
+        color.push_back(reflectance(tissue.channel(c), rung, options).r_without_specular);
     return color;
 }
 

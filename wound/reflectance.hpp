@@ -1,8 +1,10 @@
-// How much light layered tissue gives back: the analytic rungs of the ladder, from the printed equations to
-// the two-stream model, behind one interface. All take layers at one wavelength; equations are numbered as in
-// docs/optics.md.
+// How much light layered tissue gives back: the ladder of models, from the printed equations to a photon
+// walk, behind one interface. All take layers at one wavelength; equations are numbered as in docs/optics.md.
 #pragma once
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +19,8 @@ enum class Rung
     Exponential,    // the same with exponentials for the linear attenuation
     TwoStreamPaper, // Kubelka-Munk layers with the paper's S = P sigma_s', K = sigma_a; adding
     TwoStream, // Kubelka-Munk layers with Eddington's S = 3/4 sigma_s' - 1/4 sigma_a, K = 2 sigma_a; adding
+    AddingDoubling, // radiative transfer with N angles (adding_doubling.hpp)
+    MonteCarlo,     // photon walk (monte_carlo.hpp)
 };
 
 enum class Incidence
@@ -31,27 +35,44 @@ enum class DiffuseFresnel
     Polynomial,
 };
 
+struct RungOptions
+{
+    Incidence incidence = Incidence::Diffuse;
+    DiffuseFresnel fresnel = DiffuseFresnel::Exact; // analytic rungs
+    int angles = 8;                                 // adding-doubling
+    std::uint64_t photons = 1'000'000, seed = 1;    // Monte Carlo
+    unsigned threads = 0;                           // Monte Carlo; 0: one per core
+    std::function<void(double)> progress = {}; // Monte Carlo; the finished share, by one thread at a time
+};
+
 struct Response
 {
     double r = 0;                  // all reflected light
     double r_without_specular = 0; // less what the first surface alone reflects
     double t = 0;                  // into the medium below
-    std::vector<double>
-        absorbed; // per layer; for the first three rungs whatever they neither return nor pass on
+    std::vector<double> absorbed =
+        {};                    // per layer; first three rungs: whatever they neither return nor pass on
+    double standard_error = 0; // of r; 0 where nothing is random
 };
 
+/// All rungs, from the crudest to the reference.
+std::span<const Rung> all_rungs();
 /// Name on the command line and in JSON: "published", "clamped", "exponential", "two-stream-paper",
-/// "two-stream".
+/// "two-stream", ...
 std::string_view name(Rung rung);
+/// Throws cicatrix::InputError, naming the known ones.
+Rung rung_named(std::string_view name);
 
 /// For TwoStreamPaper and TwoStream, whatever the input: 0 <= r, t and r + t <= 1; r + t = 1 without
 /// absorption; a layer split in two changes nothing. Clamped and Exponential keep the bounds only, Published
 /// keeps nothing.
-Response reflectance(const Stack& stack, Rung rung, Incidence incidence = Incidence::Diffuse,
-                     DiffuseFresnel fresnel = DiffuseFresnel::Exact);
+Response reflectance(const Stack& stack, Rung rung, const RungOptions& options = {});
+
+/// What the first surface alone reflects.
+double specular_reflectance(const Stack& stack, const RungOptions& options = {});
 
 /// r_without_specular of every channel.
-std::vector<double> diffuse_color(const SkinLayers& tissue, Rung rung);
+std::vector<double> diffuse_color(const SkinLayers& tissue, Rung rung, const RungOptions& options = {});
 
 /// A layer thicker than the printed equations allow: there T(d) < 0.
 struct OutsideDomain
@@ -61,8 +82,8 @@ struct OutsideDomain
 };
 std::vector<OutsideDomain> outside_domain(const SkinLayers& tissue);
 
-/// Reflectance and transmittance of a layer or a boundary for diffuse light that comes from above (top) and
-/// below (bottom).
+/// Reflectance and transmittance of a layer or a boundary for diffuse light from above (top) and below
+/// (bottom).
 struct Element
 {
     double r_top = 0, r_bottom = 0, t_down = 1, t_up = 1;

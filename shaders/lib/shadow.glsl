@@ -16,7 +16,7 @@ float shadow_visibility(Shadow shadow, sampler2D depth, vec3 position, vec3 norm
     vec3 lifted = position + texel * (2.5 * sqrt(1.0 - cosine * cosine) * normal + to_light);
     vec4 clip = shadow.clip_from_world * vec4(lifted, 1.0);
     vec3 seen = clip.xyz / clip.w;
-    if (clip.w <= 0.0 || any(greaterThan(abs(seen.xy), vec2(1.0))) || seen.z > 1.0)
+    if (!(clip.w > 0.0 && all(lessThanEqual(abs(seen.xy), vec2(1.0))) && seen.z <= 1.0)) // true for NaN too
         return 1.0;
 
     vec2 size = vec2(textureSize(depth, 0));

@@ -1,0 +1,293 @@
+#include "wound/skin_match.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
+
+#include "wound/color.hpp"
+#include "wound/healthy_skin.hpp"
+#include "wound/membrane.hpp"
+
+namespace wound {
+namespace {
+
+using cv::Vec3f;
+
+constexpr int grid = healthy_skin_grid;
+constexpr float darkest = .002f; // reflectance; keeps logarithms finite
+
+float smooth(float low, float high, float x)
+{
+    const float t = std::clamp((x - low) / (high - low), 0.f, 1.f);
+    return t * t * (3 - 2 * t);
+}
+
+bool is_finite(const Vec3f& v)
+{
+    return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+cv::Mat1f coarse(const cv::Mat1f& fine)
+{
+    cv::Mat1f result;
+    cv::resize(fine, result, {grid, grid}, 0, 0, fine.rows > grid ? cv::INTER_AREA : cv::INTER_LINEAR);
+    return result;
+}
+
+cv::Mat3f coarse(const cv::Mat3f& fine)
+{
+    cv::Mat3f result;
+    cv::resize(fine, result, {grid, grid}, 0, 0, fine.rows > grid ? cv::INTER_AREA : cv::INTER_LINEAR);
+    return result;
+}
+
+/// The photograph as given, made safe to compute with.
+struct Source
+{
+    cv::Mat3f color;
+    cv::Mat1f coverage, valid; // 0..1
+    float radius = 0;          // of the circle of the wound's area, texels
+};
+
+Source checked(const Patch& patch)
+{
+    const int n = patch.color.rows;
+    CV_Assert(n >= 8 && patch.color.cols == n && patch.mask.size() == patch.color.size());
+    CV_Assert(patch.opacity.empty() || patch.opacity.size() == patch.color.size());
+    Source source{cv::Mat3f(n, n), cv::Mat1f(n, n), cv::Mat1f(n, n), 0};
+    double area = 0;
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            const Vec3f color = patch.color(y, x);
+            const bool known = is_finite(color) && (patch.opacity.empty() || patch.opacity(y, x) > 0);
+            const float coverage = patch.mask(y, x);
+            source.valid(y, x) = known ? 1 : 0;
+            source.coverage(y, x) = std::isfinite(coverage) ? std::clamp(coverage, 0.f, 1.f) : 0;
+            area += source.coverage(y, x);
+            for (int k = 0; k < 3; ++k)
+                source.color(y, x)[k] = known ? std::clamp(color[k], darkest, 1.f) : darkest;
+        }
+    source.radius = float(std::sqrt(area / CV_PI));
+    return source;
+}
+
+/// Takes most of the mirror images of lamps out: small, bright, colourless spots. They would not follow the
+/// renderer's light.
+void flatten_glints(cv::Mat3f& color, float radius)
+{
+    const int n = color.rows;
+    cv::Mat1f least(n, n);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            const Vec3f& c = color(y, x);
+            least(y, x) = std::min({c[0], c[1], c[2]});
+        }
+    const int width = 2 * std::clamp(int(.08f * radius), 2, 15) + 1;
+    cv::Mat1f without_spots;
+    cv::morphologyEx(least, without_spots, cv::MORPH_OPEN, cv::Mat1b::ones(width, width));
+    cv::Mat1f glint(n, n);
+    bool any = false;
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            const Vec3f& c = color(y, x);
+            const float most = std::max({c[0], c[1], c[2]}), saturation = (most - least(y, x)) / most;
+            glint(y, x) =
+                smooth(.07f, .22f, least(y, x) - without_spots(y, x)) * (1 - smooth(.35f, .6f, saturation));
+            any |= glint(y, x) > 0;
+        }
+    if (!any)
+        return;
+    cv::dilate(glint, glint, cv::Mat1b::ones(3, 3));
+    cv::Mat3f dull(n, n);
+    cv::Mat1f weight(n, n);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            weight(y, x) = 1.001f - glint(y, x);
+            dull(y, x) = color(y, x) * weight(y, x);
+        }
+    cv::boxFilter(dull, dull, -1, {2 * width + 1, 2 * width + 1});
+    cv::boxFilter(weight, weight, -1, {2 * width + 1, 2 * width + 1});
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            if (glint(y, x) > 0)
+                color(y, x) += (dull(y, x) * (1 / weight(y, x)) - color(y, x)) * (.85f * glint(y, x));
+}
+
+/// `cast` without what is within `tolerance` of 0, and 70 % of the rest, at most .5: white balance is taken
+/// back with care.
+float correction(float cast, float tolerance)
+{
+    return -std::clamp(.7f * (cast - std::clamp(cast, -tolerance, tolerance)), -.5f, .5f);
+}
+
+/// log blue / green of the wound's red parts, median; nothing if there is little red. Blood over pale dermis
+/// has about -.05.
+std::optional<float> blue_of_blood(const cv::Mat3f& log_photo, const cv::Mat1f& coverage)
+{
+    std::vector<float> blues;
+    for (int y = 0; y < grid; ++y)
+        for (int x = 0; x < grid; ++x)
+            if (const Vec3f& c = log_photo(y, x); coverage(y, x) > .9f && c[0] - c[1] > 1)
+                blues.push_back(c[2] - c[1]);
+    if (float(blues.size()) < .2f * float(cv::sum(coverage)[0]) || blues.empty())
+        return std::nullopt;
+    const auto middle = blues.begin() + std::ptrdiff_t(blues.size() / 2);
+    std::nth_element(blues.begin(), middle, blues.end());
+    return *middle;
+}
+
+/// Log gains for the open bed: the white balance and exposure that the photo's healthy skin and the blood
+/// itself betray, taken back in part and within limits, since neither the patient's skin nor the wound is
+/// known. Human skin lies near a line in (log r/g, log b/g) from light to dark.
+Vec3f bed_gain(const Vec3f& log_skin, std::optional<float> blood)
+{
+    const cv::Point2f light{.40f, -.24f}, dark{.87f, -.54f},
+        line = dark - light; // sRGB (233,196,176) and (92,60,45)
+    const cv::Point2f seen{log_skin[0] - log_skin[1], log_skin[2] - log_skin[1]};
+    const float tone = std::clamp((seen - light).dot(line) / line.dot(line), 0.f, 1.f);
+    const cv::Point2f cast = seen - (light + tone * line);
+    const float red = correction(cast.x, .15f);
+    const float blue = blood ? correction(*blood + .05f, .15f) : correction(cast.y, .15f);
+
+    const Vec3f linear{std::exp(log_skin[0]), std::exp(log_skin[1]), std::exp(log_skin[2])};
+    const float expected =
+        std::lerp(std::log(.58f), std::log(.055f), tone); // log luminance of those two skins
+    const float exposure = std::clamp(.6f * (expected - std::log(luminance(linear))), -.45f, .45f);
+    const float even = exposure - (red + blue) / 3; // a change of balance shall not change exposure as well
+    return {even + red, even, even + blue};
+}
+
+/// The face's skin on the coarse grid.
+struct Face
+{
+    cv::Mat3f log_color;
+    cv::Mat1f weight; // 0 where unknown; small where it is unlike the rest (brow, lip, nostril)
+};
+
+Face coarse_face(const cv::Mat3f& skin)
+{
+    Face face{cv::Mat3f(grid, grid, Vec3f::all(0)), cv::Mat1f(grid, grid, 0.f)};
+    if (skin.empty())
+        return face;
+    cv::Mat3f known_color(skin.size());
+    cv::Mat1f known(skin.size());
+    for (int y = 0; y < skin.rows; ++y)
+        for (int x = 0; x < skin.cols; ++x) {
+            const Vec3f color = skin(y, x);
+            known(y, x) = is_finite(color) ? 1 : 0;
+            known_color(y, x) = is_finite(color) ? color : Vec3f::all(0);
+        }
+    known_color = coarse(known_color);
+    known = coarse(known);
+    std::vector<float> lightness;
+    for (int y = 0; y < grid; ++y)
+        for (int x = 0; x < grid; ++x)
+            if (known(y, x) > .5f) {
+                for (int k = 0; k < 3; ++k)
+                    face.log_color(y, x)[k] =
+                        std::log(std::clamp(known_color(y, x)[k] / known(y, x), darkest, 1.f));
+                face.weight(y, x) = known(y, x);
+                lightness.push_back(face.log_color(y, x)[1]);
+            }
+    if (lightness.empty())
+        return face;
+    const auto middle = lightness.begin() + std::ptrdiff_t(lightness.size() / 2);
+    std::nth_element(lightness.begin(), middle, lightness.end());
+    for (int y = 0; y < grid; ++y)
+        for (int x = 0; x < grid; ++x) {
+            const float off = (face.log_color(y, x)[1] - *middle) / .45f;
+            face.weight(y, x) *= std::exp(-.5f * off * off);
+        }
+    return face;
+}
+
+/// How much darker the photo is than its healthy skin in all channels alike once blood is allowed for, log: a
+/// shadow or a fold, which belongs to the photo's light and not to the wound. Least squares of -amount *
+/// blood_absorbance + even * (1,1,1).
+float even_part(const Vec3f& log_ratio)
+{
+    const Vec3f& blood = blood_absorbance;
+    const float bb = blood.dot(blood), b1 = blood[0] + blood[1] + blood[2];
+    const float rb = log_ratio.dot(blood), r1 = log_ratio[0] + log_ratio[1] + log_ratio[2];
+    return (r1 * bb - rb * b1) / (3 * bb - b1 * b1);
+}
+
+/// What to add to the photo's log colour around the wound: from its skin to the face's, and its shadows out.
+cv::Mat3f skin_gain(const cv::Mat3f& log_photo, const HealthySkin& skin, const Face& face)
+{
+    cv::Mat3f difference = face.log_color - log_photo;
+    cv::Mat3f gain = membrane(difference, skin.health.mul(face.weight));
+    const cv::Mat3f healthy = membrane(log_photo, skin.health);
+    cv::Mat1f shade(grid, grid);
+    for (int y = 0; y < grid; ++y)
+        for (int x = 0; x < grid; ++x) {
+            const float even = even_part(log_photo(y, x) - healthy(y, x));
+            const float beyond = even - std::clamp(even, -.05f, .05f); // so much varies from pore to pore
+            shade(y, x) = std::clamp(beyond, -2.f, 2.f) * smooth(.05f, .5f, skin.outwardness(y, x));
+        }
+    cv::GaussianBlur(shade, shade, {7, 7}, 1.5);
+    for (int y = 0; y < grid; ++y)
+        for (int x = 0; x < grid; ++x)
+            gain(y, x) -= Vec3f::all(shade(y, x));
+    return gain;
+}
+
+/// 1 from the patch's middle to 0 at its frame, and at places where the photo has no data.
+float present(const cv::Mat1f& valid_around, int x, int y)
+{
+    const int n = valid_around.rows;
+    const int to_frame = std::min({x, y, n - 1 - x, n - 1 - y});
+    return smooth(0, .05f * float(n), float(to_frame)) * smooth(.6f, 1, valid_around(y, x));
+}
+
+cv::Mat1f blurred(const cv::Mat1f& map, float sigma)
+{
+    cv::Mat1f result;
+    cv::GaussianBlur(map, result, {0, 0}, sigma);
+    return result;
+}
+
+} // namespace
+
+Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
+{
+    Source source = checked(patch);
+    const int n = source.color.rows;
+    Patch result{cv::Mat3f(n, n), cv::Mat1f(n, n), patch.mask, patch.depth_mm, patch.width_mm};
+
+    flatten_glints(source.color, source.radius);
+    cv::Mat3f log_photo;
+    cv::log(source.color, log_photo);
+
+    const cv::Mat3f log_coarse = coarse(log_photo);
+    const cv::Mat1f covered = coarse(source.coverage);
+    const float reach = .8f * source.radius * grid / float(n);
+    const HealthySkin skin =
+        find_healthy_skin(log_coarse, covered, coarse(source.valid), std::max(reach, 3.f));
+    const Vec3f bed =
+        skin.found ? bed_gain(skin.log_color, blue_of_blood(log_coarse, covered)) : Vec3f::all(0);
+    cv::Mat3f gain;
+    cv::Mat1f outwardness, rawness;
+    cv::resize(skin.rawness, rawness, {n, n}, 0, 0, cv::INTER_LINEAR);
+    cv::resize(skin_gain(log_coarse, skin, coarse_face(face_skin)), gain, {n, n}, 0, 0, cv::INTER_LINEAR);
+    cv::resize(skin.outwardness, outwardness, {n, n}, 0, 0, cv::INTER_LINEAR);
+    const cv::Mat1f border = blurred(source.coverage, std::max(.8f, .012f * source.radius));
+    const cv::Mat1f valid_around = blurred(source.valid, 2);
+
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            const float in_bed = smooth(.1f, .9f, border(y, x));
+            const float around = skin.found ? 1 - smooth(.42f, .98f, outwardness(y, x)) : 0;
+            result.opacity(y, x) = std::max(in_bed, around) * present(valid_around, x, y);
+            const float raw = in_bed * rawness(y, x);
+            log_photo(y, x) += gain(y, x) * (1 - raw) + bed * raw;
+        }
+    cv::exp(log_photo, result.color);
+    cv::min(result.color, cv::Scalar::all(1), result.color);
+    return result;
+}
+
+} // namespace wound
