@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/json_fields.hpp"
+#include "shaders/shared/shading.h"
 #include "wound/input_error.hpp"
 
 namespace app {

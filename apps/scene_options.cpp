@@ -27,7 +27,7 @@ Scene chosen_scene(const SceneOptions& options)
     if (!options.wound.empty() || !options.mask.empty())
     {
         if (scene.wounds.empty())
-            scene.wounds.emplace_back();
+            scene.wounds.resize(1);
         if (!options.wound.empty())
         {
             scene.wounds.front().photo = options.wound;

@@ -17,9 +17,9 @@ layout(scalar, binding = 5) readonly buffer WarpValues_ { vec2 warp_values[]; };
 #include "lib/warp.glsl"
 
 // Contraction squeezes several day-0 texels into one of today; the mip level that holds them follows from how far the radius moved.
-float mip_of(vec2 today_point, vec2 day0_point, vec2 centroid)
+float mip_of(vec2 today_point, vec2 day0_point, vec2 centre)
 {
-    return log2(max(distance(day0_point, centroid) / max(distance(today_point, centroid), 1e-6), 1));
+    return log2(max(distance(day0_point, centre) / max(distance(today_point, centre), 1e-6), 1));
 }
 
 void main()
@@ -31,14 +31,14 @@ void main()
     const vec2 p = (vec2(texel) + 0.5) * 2 / vec2(size) - 1;
 
     const vec2 from_border = warp_backward(RUNG, today.border, p);
-    const float border_mip = mip_of(p, from_border, today.border.centroid);
+    const float border_mip = mip_of(p, from_border, today.border.center);
     const vec4 day0 = textureLod(day0_color, from_border * 0.5 + 0.5, border_mip);
     vec2 border_shape = textureLod(day0_shape, from_border * 0.5 + 0.5, border_mip).rg;
     vec2 bed_shape = border_shape;
     if (BED_APART)
     {
         const vec2 from_bed = warp_backward(RUNG, today.bed, p);
-        bed_shape = textureLod(day0_shape, from_bed * 0.5 + 0.5, mip_of(p, from_bed, today.bed.centroid)).rg;
+        bed_shape = textureLod(day0_shape, from_bed * 0.5 + 0.5, mip_of(p, from_bed, today.bed.center)).rg;
     }
     imageStore(color, texel, day0);
     imageStore(state, texel, vec4(bed_shape.r, mix(today.border_recovery, today.bed_recovery, bed_shape.g), bed_shape.g, border_shape.g));
