@@ -59,6 +59,8 @@ class Reflector
             describe(variable);
         std::sort(out.bindings.begin(), out.bindings.end(),
                   [](const ShaderBinding& a, const ShaderBinding& b) { return a.binding < b.binding; });
+        std::sort(out.inputs.begin(), out.inputs.end(),
+                  [](const ShaderInput& a, const ShaderInput& b) { return a.location < b.location; });
         return std::move(out);
     }
 
