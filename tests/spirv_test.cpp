@@ -56,6 +56,7 @@ TEST(Reflection, FindsBindingsByNameWithTypeCountAndSize)
     const ShaderBinding* result = shader.find_binding("result");
     ASSERT_TRUE(result);
     EXPECT_EQ(result->type, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+    EXPECT_EQ(result->format, VK_FORMAT_R8G8B8A8_UNORM);
 }
 
 TEST(Reflection, FindsSpecialisationConstantsWithTheirTypes)
@@ -178,6 +179,26 @@ TEST(Bindings, ADrawLooksInItsPassForWhatItIsNotGiven)
                             "pass show: shader test_mesh is given no uniform for Paint",
                             "pass show: draw test_mesh has no mesh, and its shader reads position",
                             "pass show: no shader of its draws knows exposure"));
+}
+
+TEST(Bindings, ImagesMustHaveTheFormatAndNumberTheShaderWrites)
+{
+    EXPECT_THAT(problems_of(
+                    [](Graph& graph)
+                    {
+                        const ImageDesc desc{8, 8, VK_FORMAT_R16G16B16A16_SFLOAT};
+                        ComputePass& fill = graph.compute("fill", "test_fill.comp");
+                        fill.store("result", graph.image("half", desc));
+                        fill.uniform("params", glm::vec4(1.0f));
+                        fill.buffer<glm::vec2>("Offsets", {});
+                        RasterPass& show = graph.raster("show");
+                        show.color(graph.image("first", desc), {});
+                        show.color(graph.image("second", desc), {});
+                        show.sample("source", ImageId{0});
+                        show.draw("test_quad").uniform("Tint", glm::vec4(1.0f));
+                    }),
+                ElementsAre("pass fill: shader test_fill.comp stores RGBA32F to half, which has another format",
+                            "pass show: shader test_quad writes 1 colours, the pass has 2 targets"));
 }
 
 TEST(Bindings, AnArrayOfSamplersWantsEveryElement)
