@@ -103,11 +103,11 @@ engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, con
     pass.constant("WARD_MODEL", std::uint32_t(shading.model.ward));
     pass.constant("TRANSLUCENCY_MODEL", std::uint32_t(shading.model.translucency));
     pass.constant("BLEND_MODEL", std::uint32_t(shading.blend));
-    pass.uniform("view", view);
-    pass.uniform("shading", shading_params(shading.model, shading.ambient));
-    pass.uniform("lighting", lighting(input.lights));
+    pass.uniform("View_", view);
+    pass.uniform("Shading_", shading_params(shading.model, shading.ambient));
+    pass.uniform("Lighting_", lighting(input.lights));
     pass.uniform("Wounds_", wound_frames(input.wounds));
-    pass.uniform("shadow", input.shadow.value_or(shared::Shadow{}));
+    pass.uniform("Shadow_", input.shadow.value_or(shared::Shadow{}));
     const engine::ImageId blank = graph.import("white", *input.head.white);
     pass.sample("shadow_map", input.shadow ? input.shadow_depth : blank, engine::Sampler::NearestClamp);
 
@@ -121,7 +121,7 @@ engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, con
         draw.cull_back_faces = !part.double_sided;
         draw.blend = part.blend;
         draw.depth_write = !part.blend;
-        draw.uniform("part", part_params(part));
+        draw.uniform("Part_", part_params(part));
         draw.sample("albedo_map", graph.import(fmt::format("albedo {}", i), *part.albedo), engine::Sampler::LinearRepeatMips);
         draw.sample("normal_map", graph.import(fmt::format("normal {}", i), *part.normal), engine::Sampler::LinearRepeatMips);
         draw.sample("occlusion_map", graph.import(fmt::format("occlusion {}", i), *part.occlusion), engine::Sampler::LinearRepeatMips);

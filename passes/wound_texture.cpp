@@ -46,7 +46,7 @@ WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, 
     warp.sample("day0_shape", graph.import("day0_shape" + suffix, *maps.shape), engine::Sampler::LinearClampMips);
     warp.store("color", texture.color);
     warp.store("state", texture.state);
-    warp.uniform("today", params);
+    warp.uniform("Today_", params);
     warp.buffer<shared::vec2>("WarpValues_", values);
     warp.dispatch(size, size);
 
@@ -54,7 +54,7 @@ WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, 
     engine::ComputePass& relief = graph.compute("wound_relief" + suffix, "wound_relief.comp");
     relief.sample("state", texture.state);
     relief.store("relief", texture.relief);
-    relief.uniform("params", shared::Relief{float(today.depth_scale), float(texel_mm), float(4.0 / texel_mm)}); // occlusion looks 4 mm far
+    relief.uniform("Relief_", shared::Relief{float(today.depth_scale), float(texel_mm), float(4.0 / texel_mm)}); // occlusion looks 4 mm far
     relief.dispatch(size, size);
     return texture;
 }

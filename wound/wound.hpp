@@ -12,8 +12,10 @@
 
 namespace wound {
 
+struct Preparation { double width_mm = 30, depth_factor = 1; };
 struct PreparedWound
 {
+ ContractionFlow flow;
     Patch patch;
     std::vector<cv::Point2d> border;         // closed polyline, patch coordinates, counter-clockwise seen on screen
     std::vector<cv::Point2d> control_points; // on the border, patch coordinates
@@ -32,4 +34,6 @@ struct WoundDay
     Warp border_warp, bed_warp; // backward maps: today's patch coordinates -> day 0's
 };
 
+PreparedWound prepare(const Photograph&, const Preparation&, std::string_view);
+WoundDay wound_at(const PreparedWound&, const Healing&, double day);
 } // namespace wound
