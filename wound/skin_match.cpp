@@ -10,6 +10,7 @@
 #include "wound/color.hpp"
 #include "wound/healthy_skin.hpp"
 #include "wound/membrane.hpp"
+#include "wound/smooth.hpp"
 
 namespace wound {
 namespace {
@@ -18,12 +19,6 @@ using cv::Vec3f;
 
 constexpr int grid = healthy_skin_grid;
 constexpr float darkest = .002f; // reflectance; keeps logarithms finite
-
-float smooth(float low, float high, float x)
-{
-    const float t = std::clamp((x - low) / (high - low), 0.f, 1.f);
-    return t * t * (3 - 2 * t);
-}
 
 bool is_finite(const Vec3f& v)
 {
@@ -153,9 +148,11 @@ Vec3f bed_gain(const Vec3f& log_skin, std::optional<float> blood)
     const float blue = blood ? correction(*blood + .05f, .15f) : correction(cast.y, .15f);
 
     const Vec3f linear{std::exp(log_skin[0]), std::exp(log_skin[1]), std::exp(log_skin[2])};
-    const float expected =
-        std::lerp(std::log(.58f), std::log(.055f), tone); // log luminance of those two skins
-    const float exposure = std::clamp(.6f * (expected - std::log(luminance(linear))), -.45f, .45f);
+    // Pale hues come with light skin only; the browner ones span all but the lightest.
+    const float least = std::lerp(std::log(.30f), std::log(.05f), tone),
+                most = std::lerp(std::log(.65f), std::log(.35f), tone);
+    const float seen_light = std::log(luminance(linear));
+    const float exposure = std::clamp(.6f * (std::clamp(seen_light, least, most) - seen_light), -.45f, .45f);
     const float even = exposure - (red + blue) / 3; // a change of balance shall not change exposure as well
     return {even + red, even, even + blue};
 }
@@ -270,8 +267,9 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
     const Vec3f bed =
         skin.found ? bed_gain(skin.log_color, blue_of_blood(log_coarse, covered)) : Vec3f::all(0);
     cv::Mat3f gain;
-    cv::Mat1f outwardness, rawness;
+    cv::Mat1f outwardness, rawness, foreignness;
     cv::resize(skin.rawness, rawness, {n, n}, 0, 0, cv::INTER_LINEAR);
+    cv::resize(skin.foreignness, foreignness, {n, n}, 0, 0, cv::INTER_LINEAR);
     cv::resize(skin_gain(log_coarse, skin, coarse_face(face_skin)), gain, {n, n}, 0, 0, cv::INTER_LINEAR);
     cv::resize(skin.outwardness, outwardness, {n, n}, 0, 0, cv::INTER_LINEAR);
     const cv::Mat1f border = blurred(source.coverage, std::max(.8f, .012f * source.radius));
@@ -280,9 +278,9 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
             const float in_bed = smooth(.1f, .9f, border(y, x));
-            const float around = skin.found ? 1 - smooth(.42f, .98f, outwardness(y, x)) : 0;
+            const float around = skin.found ? 1 - smooth(.40f, .90f, outwardness(y, x)) : 0;
             result.opacity(y, x) = std::max(in_bed, around) * present(valid_around, x, y);
-            const float raw = in_bed * rawness(y, x);
+            const float raw = in_bed * rawness(y, x) + (1 - in_bed) * foreignness(y, x);
             log_photo(y, x) += gain(y, x) * (1 - raw) + bed * raw;
         }
     cv::exp(log_photo, result.color);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wound/color.hpp"
+#include "wound/smooth.hpp"
 
 namespace wound {
 namespace {
@@ -17,12 +18,6 @@ using cv::Vec3f;
 const Vec3f oxygenated{.16f, 1.f, .90f}, deoxygenated{.38f, 1.f, .82f}, dried{.80f, 1.05f, .95f};
 constexpr float reach_mm = 12; // injury shows no farther from the open bed
 const Vec3f pale_dermis{.74f, .53f, .43f};
-
-float smooth(float low, float high, float x)
-{
-    const float t = std::clamp((x - low) / (high - low), 0.f, 1.f);
-    return t * t * (3 - 2 * t);
-}
 
 Vec3f mix(const Vec3f& a, const Vec3f& b, float t)
 {
