@@ -106,7 +106,7 @@ void light(Surface& surface)
                 const float cosine = (to_light[2] - slope_x * to_light[0] - slope_y * to_light[1]) * scale;
                 const float hollow = around(y, x) - surface.height_mm(y, x);
                 const float shade = 1 + .22f * (std::max(cosine, 0.f) / to_light[2] - 1) -
-                                    std::clamp(.3f * hollow, -.08f, .25f);
+                                    std::clamp(.22f * hollow, -.08f, .2f);
                 // Phong's lobe about the viewer's axis between light and eye: wet knobs catch a little of the
                 // flash.
                 const float half =

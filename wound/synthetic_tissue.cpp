@@ -159,8 +159,10 @@ void TissuePainter::inflame(Tissue& tissue, const Place& place) const
     const float near = std::exp(-std::pow(out / width, 1.25f));
     const float far =
         std::exp(-out / 5.5f) * std::max(1 + 1.3f * spread, .2f) * (1 - smooth(7, reach_mm, out));
+    const float tight = (out - 1.1f - .8f * mottle) / .55f; // where swelling squeezes the blood out
+    const float blanched = 1 - .45f * std::exp(-tight * tight);
     const float amount =
-        near * std::max(.72f + .55f * mottle, .1f) + .26f * far * std::max(1 + .8f * mottle, 0.f);
+        near * std::max(.72f + .55f * mottle, .1f) * blanched + .26f * far * std::max(1 + .8f * mottle, 0.f);
     const float bruised = near * smooth(.0f, .5f, place.slow[bruise]);
     tissue.reflectance = through(tissue.reflectance, mix(oxygenated, deoxygenated, .8f * bruised), amount);
     const float swelling = (out - 1.3f) / 1.5f;
@@ -206,7 +208,7 @@ void TissuePainter::smear_blood(Tissue& tissue, const Place& place) const
     if (splashed < -.1f)
         return; // too far for the noise below to make up for it
     const float speck = smooth(.54f, .66f, noise(p, .8f, 33, 3) + splashed);
-    tissue.reflectance = mix(tissue.reflectance, Vec3f(.12f, .026f, .016f), .8f * speck);
+    tissue.reflectance = mix(tissue.reflectance, Vec3f(.15f, .026f, .017f), .75f * speck);
     tissue.height_mm += .2f * speck;
 }
 
@@ -219,15 +221,22 @@ void TissuePainter::fray_border(Tissue& tissue, const Place& place) const
     if (std::abs(d) > 3)
         return;
     const float along = place.slow[stretch], fine = noise(p, .9f, 41, 3);
+    // The edge itself is raw: a band of dermis, bared and bleeding, from the lip down the wall.
+    const float reach = .75f + 1.1f * place.slow[uneven] + .5f * fine;
+    const float bared =
+        smooth(std::max(reach, .1f), 0, std::abs(d)) * smooth(-.35f, .25f, place.slow[knobby] + .5f * fine);
+    tissue.reflectance =
+        mix(tissue.reflectance, through(pale_dermis, mix(oxygenated, deoxygenated, .15f), 2.0f + 1.6f * fine),
+            .85f * bared);
     if (d > 0) {
-        const float shadow = std::exp(-d / .6f) * std::clamp(.5f - .45f * place.facing_light, 0.f, 1.f);
+        const float shadow = std::exp(-d / .6f) * std::clamp(.45f - .4f * place.facing_light, 0.f, 1.f);
         const float lip = smooth(.7f, .1f, d + .3f * fine) * smooth(-.1f, .6f, place.facing_light + along);
         tissue.reflectance =
             mix(tissue.reflectance, through(pale_dermis, oxygenated, 1.f + .6f * fine), .6f * lip);
         tissue.reflectance *= 1 - .4f * shadow;
     } else {
         const float flakes = smooth(.05f, .5f, fine - .9f * along) * smooth(-1.6f, -.3f, d);
-        tissue.reflectance = mix(tissue.reflectance, Vec3f(.62f, .45f, .36f), .45f * flakes);
+        tissue.reflectance = mix(tissue.reflectance, Vec3f(.62f, .45f, .36f), .35f * flakes);
         tissue.height_mm += .1f * flakes;
     }
     const float half_width = 1.3f * std::max(along - .10f, 0.f) + .25f * std::max(fine, 0.f);
