@@ -1,5 +1,8 @@
 #include "passes/shading.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "wound/input_error.hpp"
 
 namespace passes {
@@ -35,7 +38,8 @@ shared::ShadingParams shading_params(const wound::Shading& shading, const glm::v
         .alpha = static_cast<float>(shading.alpha),
         .beta = static_cast<float>(shading.beta),
         .gamma = static_cast<float>(shading.gamma),
-        .translucency_bound = static_cast<float>(shading.translucency_bound()),
+        .translucency_bound_4 =
+            static_cast<float>(std::pow(std::max(shading.translucency_bound(), 1e-9), -4)),
         .slope = glm::vec2(glm::dvec2(shading.alpha_x, shading.alpha_y)),
         .ambient = ambient,
     };

@@ -156,6 +156,25 @@ TEST(Translucency, BoundedWeightIsNothingWhereDiffuseLightAlreadyReturnsAll)
     EXPECT_EQ(translucency(bounded, 1), 0);
 }
 
+TEST(Translucency, MayBeInterpolatedBetweenVertices)
+{
+    // A head .18 m wide lit from .7 m; an edge of 3 mm in any direction, anywhere on the ball that holds the
+    // head.
+    const DistanceMap map = paper_distance(0.18, 0.7);
+    const cv::Vec3d light(0, 0, 0.7);
+    const auto weight = [&](const Shading& shading, const cv::Vec3d& p) {
+        return translucency(shading, map.scale * cv::norm(light - p) + map.offset);
+    };
+    for (const Shading& shading : {Shading{}, published_shading()})
+        for (double theta = 0; theta <= 180; theta += 5)
+            for (double turn = 0; turn < 180; turn += 15) {
+                const cv::Vec3d middle = 0.09 * direction(theta, 0), half_edge = 0.0015 * direction(turn, 0);
+                const double between =
+                    (weight(shading, middle + half_edge) + weight(shading, middle - half_edge)) / 2;
+                EXPECT_NEAR(between / weight(shading, middle), 1, 1e-3) << theta << ' ' << turn;
+            }
+}
+
 TEST(Translucency, PaperDistanceReproducesThePapersSetUp)
 {
     // A head 0.22 m wide, its light at 0.2 m: the paper's own proportion.

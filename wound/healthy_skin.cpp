@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wound/color.hpp"
+#include "wound/smooth.hpp"
 
 namespace wound {
 namespace {
@@ -107,14 +108,93 @@ cv::Mat1b reachable(const cv::Mat1b& region, const cv::Mat1b& wound)
     return result;
 }
 
-float smooth(float low, float high, float x)
-{
-    const float t = std::clamp((x - low) / (high - low), 0.f, 1.f);
-    return t * t * (3 - 2 * t);
-}
-
 constexpr float darkest_skin =
     -4.2f; // log luminance; below is shadow, hair, clothes or the photo's black frame
+
+/// What the steps below share.
+struct Surroundings
+{
+    const cv::Mat3f& log_color;
+    const cv::Mat1f &coverage, &valid;
+    float reach;
+    cv::Mat1b wound;
+    cv::Mat1f outside, within; // distances to the wound's border, cells
+
+    bool has_data(int x, int y) const
+    {
+        const int last = wound.rows - 3; // two cells of frame
+        return valid(y, x) > .98f && x > 1 && y > 1 && x <= last && y <= last;
+    }
+    bool may_be_skin(int x, int y) const
+    {
+        return coverage(y, x) < .02f && has_data(x, y) && features(log_color(y, x))[0] > darkest_skin;
+    }
+};
+
+std::vector<Vec3f> skin_samples(const Surroundings& around)
+{
+    std::vector<Vec3f> samples;
+    for (int y = 0; y < around.wound.rows; ++y)
+        for (int x = 0; x < around.wound.cols; ++x)
+            if (around.may_be_skin(x, y) && around.outside(y, x) > .2f * around.reach &&
+                around.outside(y, x) < 1.3f * around.reach)
+                samples.push_back(features(around.log_color(y, x)));
+    prefer_skin_colored(samples);
+    return samples;
+}
+
+/// Fills `skin.health` and `skin.rawness`; returns the cells outside the wound that are skin, healthy or
+/// inflamed.
+cv::Mat1b judge(const Surroundings& around, const SkinModel& model, HealthySkin& skin)
+{
+    cv::Mat1b is_skin(around.wound.size(), uchar(0));
+    for (int y = 0; y < is_skin.rows; ++y)
+        for (int x = 0; x < is_skin.cols; ++x) {
+            const Vec3f& color = around.log_color(y, x);
+            const float off = float(cv::norm(model.deviation(features(color))));
+            if (around.wound(y, x)) {
+                const float inner = smooth(.1f * around.reach, .5f * around.reach, around.within(y, x));
+                skin.rawness(y, x) = std::max(smooth(1.2f, 2.6f, off), inner);
+            } else if (around.may_be_skin(x, y)) {
+                const float foreign = deviation_but_for_blood(model, color);
+                const float near = std::exp(-around.outside(y, x) / (.3f * around.reach));
+                is_skin(y, x) = foreign < 3 + 4 * near ? 255 : 0; // anything may be seen at the rim
+                skin.health(y, x) = off < 3.5f ? std::exp(-.5f * off * off) : 0;
+                skin.foreignness(y, x) =
+                    smooth(2.2f, 4, foreign) * smooth(.35f, .1f, around.outside(y, x) / around.reach);
+            }
+        }
+    return is_skin;
+}
+
+/// Median over the cells that are healthy beyond doubt; false if there are none.
+bool find_color(const cv::Mat3f& log_color, const cv::Mat1f& health, Vec3f& color)
+{
+    for (int k = 0; k < 3; ++k) {
+        std::vector<float> values;
+        for (int y = 0; y < health.rows; ++y)
+            for (int x = 0; x < health.cols; ++x)
+                if (health(y, x) > .3f)
+                    values.push_back(log_color(y, x)[k]);
+        if (values.empty())
+            return false;
+        color[k] = median(std::move(values));
+    }
+    return true;
+}
+
+/// Skin that goes on without a break from the wound outwards, specks (a hair, a glint) closed.
+cv::Mat1b continuous_skin(const Surroundings& around, const cv::Mat1b& is_skin)
+{
+    cv::Mat1b skin;
+    cv::morphologyEx(is_skin | around.wound, skin, cv::MORPH_CLOSE,
+                     cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
+    for (int y = 0; y < skin.rows; ++y)
+        for (int x = 0; x < skin.cols; ++x)
+            if (!around.has_data(x, y))
+                skin(y, x) = 0;
+    return reachable(skin, around.wound);
+}
 
 } // namespace
 
@@ -122,74 +202,33 @@ HealthySkin find_healthy_skin(const cv::Mat3f& log_color, const cv::Mat1f& cover
                               float reach)
 {
     const int n = healthy_skin_grid;
-    const cv::Mat1b wound = coverage > .5f;
-    cv::Mat1f from_wound;
-    cv::distanceTransform(~wound, from_wound, cv::DIST_L2, cv::DIST_MASK_5);
+    Surroundings around{log_color, coverage, valid, reach, coverage > .5f, {}, {}};
+    cv::distanceTransform(~around.wound, around.outside, cv::DIST_L2, cv::DIST_MASK_5);
+    cv::distanceTransform(around.wound, around.within, cv::DIST_L2, cv::DIST_MASK_5);
 
-    const auto usable = [&](int x, int y) {
-        return valid(y, x) > .98f && features(log_color(y, x))[0] > darkest_skin && x > 1 && y > 1 &&
-               x < n - 2 && y < n - 2;
-    };
-    std::vector<Vec3f> samples;
-    cv::Mat1b skin(n, n, uchar(0));
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x)
-            if (coverage(y, x) < .02f && usable(x, y)) {
-                skin(y, x) = 255;
-                if (from_wound(y, x) > .2f * reach && from_wound(y, x) < 1.3f * reach)
-                    samples.push_back(features(log_color(y, x)));
-            }
-    prefer_skin_colored(samples);
-
-    HealthySkin result{samples.size() > 40, Vec3f::all(0), cv::Mat1f(n, n), cv::Mat1f(n, n, 0.f),
-                       cv::Mat1f(n, n, 1.f)};
-    if (result.found) {
-        const SkinModel model = fit(samples);
-        cv::Mat1f within;
-        cv::distanceTransform(wound, within, cv::DIST_L2, cv::DIST_MASK_5);
-        std::array<std::vector<float>, 3> healthy;
-        for (int y = 0; y < n; ++y)
-            for (int x = 0; x < n; ++x)
-                if (wound(y, x)) {
-                    const float off = float(cv::norm(model.deviation(features(log_color(y, x)))));
-                    result.rawness(y, x) =
-                        std::max(smooth(1.2f, 2.6f, off), smooth(.1f * reach, .5f * reach, within(y, x)));
-                } else if (skin(y, x)) {
-                    const float near =
-                        std::exp(-from_wound(y, x) / (.3f * reach)); // anything may be seen at the rim
-                    if (deviation_but_for_blood(model, log_color(y, x)) > 3 + 4 * near)
-                        skin(y, x) = 0;
-                    const float off = float(cv::norm(model.deviation(features(log_color(y, x)))));
-                    result.health(y, x) = off < 3.5f ? std::exp(-.5f * off * off) : 0;
-                    if (off < 1.5f)
-                        for (int k = 0; k < 3; ++k)
-                            healthy[k].push_back(log_color(y, x)[k]);
-                }
-        for (int k = 0; k < 3; ++k)
-            result.log_color[k] = healthy[k].empty() ? 0 : median(healthy[k]);
-        result.found = !healthy[0].empty();
-    }
-    // Specks (a hair, a glint) must not punch holes: closing fills them.
-    cv::morphologyEx(skin | wound, skin, cv::MORPH_CLOSE,
-                     cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x)
-            if (valid(y, x) < .98f || x < 2 || y < 2 || x >= n - 2 || y >= n - 2)
-                skin(y, x) = 0;
-    skin = reachable(skin, wound);
+    HealthySkin skin;
+    skin.outwardness = cv::Mat1f(n, n, 1.f);
+    skin.health = cv::Mat1f(n, n, 0.f);
+    skin.foreignness = cv::Mat1f(n, n, 0.f);
+    skin.rawness = cv::Mat1f(n, n, 1.f);
+    std::vector<Vec3f> samples = skin_samples(around);
+    if (samples.size() < 40)
+        return skin;
+    const cv::Mat1b connected = continuous_skin(around, judge(around, fit(std::move(samples)), skin));
 
     cv::Mat1f to_end;
-    cv::distanceTransform(skin & (from_wound < reach), to_end, cv::DIST_L2, cv::DIST_MASK_5);
+    cv::distanceTransform(connected & (around.outside < reach), to_end, cv::DIST_L2, cv::DIST_MASK_5);
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
-            const float d = from_wound(y, x);
-            result.outwardness(y, x) = wound(y, x) ? 0 : d / (d + to_end(y, x));
-            result.health(y, x) *=
-                skin(y, x) && !wound(y, x) ? smooth(.15f, .7f, result.outwardness(y, x)) : 0;
+            const float d = around.outside(y, x);
+            skin.outwardness(y, x) = around.wound(y, x) ? 0 : d / (d + to_end(y, x));
+            skin.health(y, x) *= connected(y, x) ? smooth(.15f, .7f, skin.outwardness(y, x)) : 0;
         }
-    cv::GaussianBlur(result.outwardness, result.outwardness, {5, 5}, 1);
-    cv::GaussianBlur(result.rawness, result.rawness, {5, 5}, 1);
-    return result;
+    cv::GaussianBlur(skin.outwardness, skin.outwardness, {5, 5}, 1);
+    cv::GaussianBlur(skin.rawness, skin.rawness, {5, 5}, 1);
+    cv::GaussianBlur(skin.foreignness, skin.foreignness, {5, 5}, .8);
+    skin.found = find_color(log_color, skin.health, skin.log_color);
+    return skin;
 }
 
 } // namespace wound

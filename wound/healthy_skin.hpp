@@ -15,10 +15,11 @@ struct HealthySkin
     /// 0 at the wound's border and inside .. 1 where the usable surroundings end: at the edge of the skin, at
     /// the patch's frame, at anything that is not skin, and `reach` from the border at the latest.
     cv::Mat1f outwardness;
-    cv::Mat1f health; // 0..1: whether the cell shows healthy skin outside the wound
-    /// 1 where the wound is raw; 0 where, near its border, the mask took in what looks like healthy skin. 1
-    /// outside.
-    cv::Mat1f rawness;
+    cv::Mat1f health;      // 0..1: whether the cell shows healthy skin outside the wound
+    cv::Mat1f foreignness; // 0..1, outside: crust, slough or dead skin near the border, which is no skin to
+                           // be matched
+    cv::Mat1f
+        rawness; // inside: 0 where the mask took in what looks like healthy skin near the border, otherwise 1
 };
 
 /// `log_color`: logarithms of the photo's linear rgb; `coverage`: the wound's, 0..1; `valid`: 0..1, where the

@@ -10,6 +10,7 @@
 #include "wound/color.hpp"
 #include "wound/healthy_skin.hpp"
 #include "wound/membrane.hpp"
+#include "wound/smooth.hpp"
 
 namespace wound {
 namespace {
@@ -18,12 +19,6 @@ using cv::Vec3f;
 
 constexpr int grid = healthy_skin_grid;
 constexpr float darkest = .002f; // reflectance; keeps logarithms finite
-
-float smooth(float low, float high, float x)
-{
-    const float t = std::clamp((x - low) / (high - low), 0.f, 1.f);
-    return t * t * (3 - 2 * t);
-}
 
 bool is_finite(const Vec3f& v)
 {
@@ -149,13 +144,15 @@ Vec3f bed_gain(const Vec3f& log_skin, std::optional<float> blood)
     const cv::Point2f seen{log_skin[0] - log_skin[1], log_skin[2] - log_skin[1]};
     const float tone = std::clamp((seen - light).dot(line) / line.dot(line), 0.f, 1.f);
     const cv::Point2f cast = seen - (light + tone * line);
-    const float red = correction(cast.x, .15f);
-    const float blue = blood ? correction(*blood + .05f, .15f) : correction(cast.y, .15f);
+    const float red = correction(cast.x, .1f);
+    const float blue = blood ? correction(*blood + .05f, .1f) : correction(cast.y, .1f);
 
     const Vec3f linear{std::exp(log_skin[0]), std::exp(log_skin[1]), std::exp(log_skin[2])};
-    const float expected =
-        std::lerp(std::log(.58f), std::log(.055f), tone); // log luminance of those two skins
-    const float exposure = std::clamp(.6f * (expected - std::log(luminance(linear))), -.45f, .45f);
+    // Pale hues come with light skin only; the browner ones span all but the lightest.
+    const float least = std::lerp(std::log(.30f), std::log(.05f), tone),
+                most = std::lerp(std::log(.65f), std::log(.35f), tone);
+    const float seen_light = std::log(luminance(linear));
+    const float exposure = std::clamp(.6f * (std::clamp(seen_light, least, most) - seen_light), -.45f, .45f);
     const float even = exposure - (red + blue) / 3; // a change of balance shall not change exposure as well
     return {even + red, even, even + blue};
 }
@@ -164,12 +161,13 @@ Vec3f bed_gain(const Vec3f& log_skin, std::optional<float> blood)
 struct Face
 {
     cv::Mat3f log_color;
-    cv::Mat1f weight; // 0 where unknown; small where it is unlike the rest (brow, lip, nostril)
+    cv::Mat1f weight;               // 0 where unknown; small where it is unlike the rest (brow, lip, nostril)
+    std::optional<float> log_green; // its median: how light the face is
 };
 
 Face coarse_face(const cv::Mat3f& skin)
 {
-    Face face{cv::Mat3f(grid, grid, Vec3f::all(0)), cv::Mat1f(grid, grid, 0.f)};
+    Face face{cv::Mat3f(grid, grid, Vec3f::all(0)), cv::Mat1f(grid, grid, 0.f), std::nullopt};
     if (skin.empty())
         return face;
     cv::Mat3f known_color(skin.size());
@@ -196,12 +194,20 @@ Face coarse_face(const cv::Mat3f& skin)
         return face;
     const auto middle = lightness.begin() + std::ptrdiff_t(lightness.size() / 2);
     std::nth_element(lightness.begin(), middle, lightness.end());
+    face.log_green = *middle;
     for (int y = 0; y < grid; ++y)
         for (int x = 0; x < grid; ++x) {
-            const float off = (face.log_color(y, x)[1] - *middle) / .45f;
+            const float off = (face.log_color(y, x)[1] - *face.log_green) / .45f;
             face.weight(y, x) *= std::exp(-.5f * off * off);
         }
     return face;
+}
+
+/// Log gain of the bed when the photo's skin is darker than the face: part of that is underexposure, the rest
+/// the patient's own tone, and nothing tells how much. Never darkens: blood is as red on dark skin.
+float lift(const HealthySkin& skin, const Face& face)
+{
+    return face.log_green ? std::clamp(.3f * (*face.log_green - skin.log_color[1]), 0.f, .3f) : 0;
 }
 
 /// How much darker the photo is than its healthy skin in all channels alike once blood is allowed for, log: a
@@ -267,12 +273,16 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
     const float reach = .8f * source.radius * grid / float(n);
     const HealthySkin skin =
         find_healthy_skin(log_coarse, covered, coarse(source.valid), std::max(reach, 3.f));
-    const Vec3f bed =
-        skin.found ? bed_gain(skin.log_color, blue_of_blood(log_coarse, covered)) : Vec3f::all(0);
+    const Face face = coarse_face(face_skin);
+    Vec3f bed = Vec3f::all(0);
+    if (skin.found)
+        bed = bed_gain(skin.log_color, blue_of_blood(log_coarse, covered)) + Vec3f::all(lift(skin, face));
+
     cv::Mat3f gain;
-    cv::Mat1f outwardness, rawness;
+    cv::Mat1f outwardness, rawness, foreignness;
     cv::resize(skin.rawness, rawness, {n, n}, 0, 0, cv::INTER_LINEAR);
-    cv::resize(skin_gain(log_coarse, skin, coarse_face(face_skin)), gain, {n, n}, 0, 0, cv::INTER_LINEAR);
+    cv::resize(skin.foreignness, foreignness, {n, n}, 0, 0, cv::INTER_LINEAR);
+    cv::resize(skin_gain(log_coarse, skin, face), gain, {n, n}, 0, 0, cv::INTER_LINEAR);
     cv::resize(skin.outwardness, outwardness, {n, n}, 0, 0, cv::INTER_LINEAR);
     const cv::Mat1f border = blurred(source.coverage, std::max(.8f, .012f * source.radius));
     const cv::Mat1f valid_around = blurred(source.valid, 2);
@@ -280,9 +290,9 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
             const float in_bed = smooth(.1f, .9f, border(y, x));
-            const float around = skin.found ? 1 - smooth(.42f, .98f, outwardness(y, x)) : 0;
+            const float around = skin.found ? 1 - smooth(.40f, .90f, outwardness(y, x)) : 0;
             result.opacity(y, x) = std::max(in_bed, around) * present(valid_around, x, y);
-            const float raw = in_bed * rawness(y, x);
+            const float raw = in_bed * rawness(y, x) + (1 - in_bed) * foreignness(y, x);
             log_photo(y, x) += gain(y, x) * (1 - raw) + bed * raw;
         }
     cv::exp(log_photo, result.color);

@@ -81,6 +81,13 @@ Surface paint(const SyntheticWound& wound, const Noise& noise, const cv::Mat1f& 
     return surface;
 }
 
+/// x to the 40th.
+float lobe(float x)
+{
+    const float x2 = x * x, x4 = x2 * x2, x8 = x4 * x4, x16 = x8 * x8;
+    return x16 * x16 * x8;
+}
+
 /// Lights the relief gently, as a ring flash nearly flattens it: the renderer lights it again.
 void light(Surface& surface)
 {
@@ -99,13 +106,13 @@ void light(Surface& surface)
                 const float cosine = (to_light[2] - slope_x * to_light[0] - slope_y * to_light[1]) * scale;
                 const float hollow = around(y, x) - surface.height_mm(y, x);
                 const float shade = 1 + .22f * (std::max(cosine, 0.f) / to_light[2] - 1) -
-                                    std::clamp(.3f * hollow, -.08f, .25f);
+                                    std::clamp(.22f * hollow, -.08f, .2f);
                 // Phong's lobe about the viewer's axis between light and eye: wet knobs catch a little of the
                 // flash.
                 const float half =
                     (to_light[2] + 1 - slope_x * to_light[0] - slope_y * to_light[1]) * scale / 1.844f;
                 const float wet = surface.wetness(y, x);
-                const float glint = wet > 0 ? .09f * wet * std::pow(std::clamp(half, 0.f, 1.f), 40.f) : 0;
+                const float glint = wet > 0 ? .09f * wet * lobe(std::clamp(half, 0.f, 1.f)) : 0;
                 surface.reflectance(y, x) = surface.reflectance(y, x) * shade + Vec3f::all(glint);
             }
     });

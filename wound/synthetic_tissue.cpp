@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wound/color.hpp"
+#include "wound/smooth.hpp"
 
 namespace wound {
 namespace {
@@ -18,22 +19,24 @@ const Vec3f oxygenated{.16f, 1.f, .90f}, deoxygenated{.38f, 1.f, .82f}, dried{.8
 constexpr float reach_mm = 12; // injury shows no farther from the open bed
 const Vec3f pale_dermis{.74f, .53f, .43f};
 
-float smooth(float low, float high, float x)
-{
-    const float t = std::clamp((x - low) / (high - low), 0.f, 1.f);
-    return t * t * (3 - 2 * t);
-}
-
 Vec3f mix(const Vec3f& a, const Vec3f& b, float t)
 {
     return a + (b - a) * t;
 }
 
+/// exp(-x), cheaply: within 1 % for x in -1..2, and a little more light beyond, where little is left.
+float transmitted(float x)
+{
+    x *= .25f;
+    const float inverse = 1 + x * (1 + x * (.5f + x * .1667f)), squared = inverse * inverse;
+    return 1 / (squared * squared);
+}
+
 /// Light that has gone through `amount` of blood over `base`.
 Vec3f through(const Vec3f& base, const Vec3f& blood, float amount)
 {
-    return {base[0] * std::exp(-amount * blood[0]), base[1] * std::exp(-amount * blood[1]),
-            base[2] * std::exp(-amount * blood[2])};
+    return {base[0] * transmitted(amount * blood[0]), base[1] * transmitted(amount * blood[1]),
+            base[2] * transmitted(amount * blood[2])};
 }
 
 float fraction(std::uint32_t bits)
@@ -136,16 +139,14 @@ Tissue TissuePainter::at(const Place& place) const
     return tissue;
 }
 
-/// Healthy skin: blotches of blood, grain, pores.
+/// Healthy skin: blotches of blood and a grain of pores.
 Tissue TissuePainter::skin(const Place& place) const
 {
-    const Point2f p = place.p;
+    const float grain = noise(place.p, 1.0f, 2, 2);
     Tissue tissue;
-    const float grain = noise(p, .9f, 2, 2);
-    const float pore = smooth(.35f, .85f, noise(p, 1.6f, 3));
-    const float blood = .13f * place.slow[blotches] + .05f * grain + .04f * pore;
-    tissue.reflectance = through(skin_, oxygenated, blood) * (1 - .025f * pore + .03f * grain);
-    tissue.height_mm = -.01f * pore;
+    tissue.reflectance =
+        through(skin_, oxygenated, .13f * place.slow[blotches] + .06f * grain) * (1 + .03f * grain);
+    tissue.height_mm = .01f * grain;
     return tissue;
 }
 
@@ -158,8 +159,10 @@ void TissuePainter::inflame(Tissue& tissue, const Place& place) const
     const float near = std::exp(-std::pow(out / width, 1.25f));
     const float far =
         std::exp(-out / 5.5f) * std::max(1 + 1.3f * spread, .2f) * (1 - smooth(7, reach_mm, out));
+    const float tight = (out - 1.1f - .8f * mottle) / .55f; // where swelling squeezes the blood out
+    const float blanched = 1 - .45f * std::exp(-tight * tight);
     const float amount =
-        near * std::max(.72f + .55f * mottle, .1f) + .26f * far * std::max(1 + .8f * mottle, 0.f);
+        near * std::max(.72f + .55f * mottle, .1f) * blanched + .26f * far * std::max(1 + .8f * mottle, 0.f);
     const float bruised = near * smooth(.0f, .5f, place.slow[bruise]);
     tissue.reflectance = through(tissue.reflectance, mix(oxygenated, deoxygenated, .8f * bruised), amount);
     const float swelling = (out - 1.3f) / 1.5f;
@@ -204,8 +207,8 @@ void TissuePainter::smear_blood(Tissue& tissue, const Place& place) const
     const float splashed = .6f * place.slow[film_patches] - .035f * out;
     if (splashed < -.1f)
         return; // too far for the noise below to make up for it
-    const float speck = smooth(.50f, .62f, noise(p, .8f, 33, 3) + splashed);
-    tissue.reflectance = mix(tissue.reflectance, Vec3f(.12f, .026f, .016f), .8f * speck);
+    const float speck = smooth(.54f, .66f, noise(p, .8f, 33, 3) + splashed);
+    tissue.reflectance = mix(tissue.reflectance, Vec3f(.15f, .026f, .017f), .75f * speck);
     tissue.height_mm += .2f * speck;
 }
 
@@ -218,15 +221,22 @@ void TissuePainter::fray_border(Tissue& tissue, const Place& place) const
     if (std::abs(d) > 3)
         return;
     const float along = place.slow[stretch], fine = noise(p, .9f, 41, 3);
+    // The edge itself is raw: a band of dermis, bared and bleeding, from the lip down the wall.
+    const float reach = .75f + 1.1f * place.slow[uneven] + .5f * fine;
+    const float bared =
+        smooth(std::max(reach, .1f), 0, std::abs(d)) * smooth(-.35f, .25f, place.slow[knobby] + .5f * fine);
+    tissue.reflectance =
+        mix(tissue.reflectance, through(pale_dermis, mix(oxygenated, deoxygenated, .15f), 2.0f + 1.6f * fine),
+            .85f * bared);
     if (d > 0) {
-        const float shadow = std::exp(-d / .6f) * std::clamp(.5f - .45f * place.facing_light, 0.f, 1.f);
+        const float shadow = std::exp(-d / .6f) * std::clamp(.45f - .4f * place.facing_light, 0.f, 1.f);
         const float lip = smooth(.7f, .1f, d + .3f * fine) * smooth(-.1f, .6f, place.facing_light + along);
         tissue.reflectance =
             mix(tissue.reflectance, through(pale_dermis, oxygenated, 1.f + .6f * fine), .6f * lip);
-        tissue.reflectance *= 1 - .5f * shadow;
+        tissue.reflectance *= 1 - .4f * shadow;
     } else {
         const float flakes = smooth(.05f, .5f, fine - .9f * along) * smooth(-1.6f, -.3f, d);
-        tissue.reflectance = mix(tissue.reflectance, Vec3f(.62f, .45f, .36f), .45f * flakes);
+        tissue.reflectance = mix(tissue.reflectance, Vec3f(.62f, .45f, .36f), .35f * flakes);
         tissue.height_mm += .1f * flakes;
     }
     const float half_width = 1.3f * std::max(along - .10f, 0.f) + .25f * std::max(fine, 0.f);
@@ -247,25 +257,25 @@ void TissuePainter::fray_border(Tissue& tissue, const Place& place) const
 Tissue TissuePainter::bed(const Place& place) const
 {
     const Point2f p = place.p + .7f * Point2f(place.slow[bend_x], place.slow[bend_y]);
-    const Cell coarse = cell_at(wound_.seed + 1, p * .7f), fine = cell_at(wound_.seed + 2, p * 1.7f);
+    const Cell coarse = cell_at(wound_.seed + 1, p * .7f), fine = cell_at(wound_.seed + 2, p * 1.9f);
     const float knobs = smooth(-.35f, .35f, place.slow[knobby]);
     const float dome = 1 - .75f * (coarse.nearest * coarse.nearest + fine.nearest * fine.nearest);
     const float rough = noise(p, 1.1f, 54, 4);
     const float bump =
-        std::clamp(std::lerp(.55f + .8f * rough, dome + .4f * rough, .25f + .5f * knobs), 0.f, 1.f);
+        std::clamp(std::lerp(.55f + .8f * rough, dome + .4f * rough, .4f + .45f * knobs), 0.f, 1.f);
     const float patches = noise(p, .42f, 58, 3), short_of_oxygen = smooth(-.05f, .5f, place.slow[livid]);
 
     Tissue tissue;
     const float own = fraction(coarse.id * 2654435761u) - .5f;
-    const float blood = std::clamp(2.75f + 1.7f * place.slow[supply] + 1.3f * patches + .35f * own * knobs +
+    const float blood = std::clamp(3.0f + 2.1f * place.slow[supply] + 1.3f * patches + .35f * own * knobs +
                                        2.0f * (.60f - bump) + .9f * std::exp(-place.inside_mm / 1.2f),
                                    1.1f, 5.5f);
     tissue.reflectance = through(pale_dermis, mix(oxygenated, deoxygenated, .75f * short_of_oxygen), blood) *
-                         (.86f + .22f * bump);
+                         (.77f + .22f * bump);
 
     const float wall_mm = 1.2f + .8f * place.slow[wall];
     const float floor_mm = 1.9f + .7f * place.slow[floor];
-    tissue.height_mm = -floor_mm * smooth(-.1f, std::max(wall_mm, .4f), place.inside_mm) + .24f * bump;
+    tissue.height_mm = -floor_mm * smooth(-.1f, std::max(wall_mm, .4f), place.inside_mm) + .18f * bump;
     tissue.wetness = .9f * smooth(.2f, .8f, place.inside_mm);
     lay_fibrin(tissue, place, bump);
     lay_clot(tissue, place);

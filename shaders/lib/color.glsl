@@ -18,13 +18,14 @@ vec3 linear_from_srgb(vec3 encoded)
 // The largest value a half-float target holds; a light at the surface must not become infinite there.
 vec3 finite_radiance(vec3 linear) { return clamp(linear, 0.0, 65504.0); }
 
-// Identity up to the knee, then towards 1 without reaching it, with the same slope at the knee. Channel by channel, so that
-// a bright highlight turns white as on film.
+// Identity up to the knee, then towards 1 without reaching it, with the same slope at the knee; a hyperbola, because an
+// exponential costs a software rasteriser as much again as the encoding. Channel by channel, so that a bright highlight
+// turns white as on film.
 vec3 soft_shoulder(vec3 linear)
 {
     const float knee = 0.8;
     vec3 over = max(linear - knee, 0.0) / (1.0 - knee);
-    return min(linear, knee) + (1.0 - knee) * (1.0 - exp(-over));
+    return min(linear, knee) + (1.0 - knee) * over / (1.0 + over);
 }
 
 #endif

@@ -26,7 +26,7 @@ struct ShadingParams
 {
     float rho_d, rho_ts, rho_s;     // diffuse, translucent, specular; 0..1
     float alpha, beta, gamma;       // eq. (6), for distances in the paper's unit
-    float translucency_bound;       // W, largest weight of the bounded translucency
+    float translucency_bound_4;     // W^-4, W the largest weight of the bounded translucency; 1e36 for W = 0
     vec2 slope;                     // alpha_x, alpha_y of eq. (7), 1e-4..1.5
     vec3 ambient;                   // linear radiance of the surroundings, seen where occlusion leaves them open
 };

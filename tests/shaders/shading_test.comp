@@ -15,9 +15,9 @@ layout(binding = 1, rgba32f) uniform writeonly image2D results;
 vec3 shade(ShadingCase c)
 {
     LightSample light = sample_light(c.light, c.a);
-    return c.number * surface_diffuse(c.params, light, c.c, light.direction) +
-           subsurface_diffuse(c.translucency, c.params, light, c.c) +
-           c.number * specular(c.model, c.params, light, light.direction, c.b);
+    vec3 diffuse = c.number * surface_diffuse(c.params, light, light.direction) +
+                   subsurface_diffuse(c.translucency, c.params, c.light, c.a);
+    return diffuse * c.c + c.number * specular(c.model, c.params, light, light.direction, c.b);
 }
 
 vec3 evaluate(ShadingCase c)

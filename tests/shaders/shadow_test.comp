@@ -22,5 +22,6 @@ void main()
     if (place.x >= imageSize(visibility).x || index >= receivers.length())
         return;
     Receiver r = receivers[index];
-    imageStore(visibility, place, vec4(shadow_visibility(shadow, shadow_depth, r.position, r.normal, r.to_light)));
+    vec4 in_light = shadow_place(shadow, r.position, r.normal, r.to_light);
+    imageStore(visibility, place, vec4(shadow_visibility(shadow_depth, in_light)));
 }
