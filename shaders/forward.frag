@@ -25,6 +25,8 @@ layout(location = 0) in vec3 v_position;
 layout(location = 1) in vec3 v_normal;
 layout(location = 2) in vec4 v_tangent;
 layout(location = 3) in vec2 v_uv;
+layout(location = 4) in vec3 v_subsurface;
+layout(location = 5) in vec4 v_shadow_place;
 layout(location = 0) out vec4 out_color;
 
 layout(scalar, binding = 0) uniform View_ { View view; };
@@ -40,7 +42,11 @@ layout(binding = 9) uniform sampler2D wound_state[MAX_WOUNDS];
 layout(binding = 10) uniform sampler2D wound_relief[MAX_WOUNDS];
 layout(binding = 11) uniform sampler2D reflectance_lut[MAX_WOUNDS];
 layout(binding = 12) uniform sampler2D shadow_map;
-layout(scalar, binding = 13) uniform Shadow_ { Shadow shadow; };
+
+#define ADD_WOUND(i)                                                                                                            \
+    if (WOUNDS > i)                                                                                                            \
+        add_wound(BLEND_MODEL, wounds[i], wound_color[i], wound_state[i], wound_relief[i], reflectance_lut[i], v_position,     \
+                  geometric, skin);
 
 void main()
 {
@@ -57,32 +63,31 @@ void main()
     }
     if (AMBIENT)
         skin.occlusion = texture(occlusion_map, v_uv).r;
-    for (uint i = 0; i < WOUNDS; ++i)
-        add_wound(BLEND_MODEL, wounds[i], wound_color[i], wound_state[i], wound_relief[i], reflectance_lut[i], v_position, geometric, skin);
+    // Written out, for an array of samplers indexed by a loop's counter costs a software rasteriser ten times as much.
+    ADD_WOUND(0) ADD_WOUND(1) ADD_WOUND(2) ADD_WOUND(3) ADD_WOUND(4) ADD_WOUND(5) ADD_WOUND(6) ADD_WOUND(7)
 
     frame = frame_of(bend_to_viewer(skin.normal, to_viewer), v_tangent);
     ShadingParams params = shading;
     // A wet bed mirrors more, in a narrower lobe; taut new epithelium a little so.
     params.slope *= part.slope * (1 - 0.45 * skin.wetness) * (1 - 0.25 * skin.tautness);
     params.rho_s *= part.specular * (1 + 0.4 * skin.wetness + 0.2 * skin.tautness);
-    params.rho_ts *= part.translucency * (TRANSLUCENCY_MODEL == TRANSLUCENCY_PUBLISHED ? 1 : skin.occlusion);
-
     const vec3 local_viewer = to_viewer * frame;
-    vec3 radiance = AMBIENT ? params.ambient * skin.occlusion * skin.albedo : vec3(0);
+    vec3 diffuse = AMBIENT ? params.ambient * skin.occlusion : vec3(0); // still to be coloured by C
+    vec3 mirrored = vec3(0);
     for (uint i = 0; i < lighting.count; ++i)
     {
-        const LightSample light = sample_light(lighting.light[i], v_position);
-        const vec3 local_light = light.direction * frame;
-        vec3 direct = vec3(0);
-        if (LAMBERT)
-            direct += surface_diffuse(params, light, skin.albedo, local_light);
-        if (WARD)
-            direct += specular(WARD_MODEL, params, light, local_light, local_viewer);
+        LightSample light = sample_light(lighting.light[i], v_position);
         if (SHADOW && i == 0)
-            direct *= shadow_visibility(shadow, shadow_map, v_position, geometric, light.direction);
-        radiance += direct;
-        if (TRANSLUCENCY)
-            radiance += subsurface_diffuse(TRANSLUCENCY_MODEL, params, light, skin.albedo);
+            light.strength *= shadow_visibility(shadow_map, v_shadow_place);
+        const vec3 local_light = light.direction * frame;
+        if (LAMBERT)
+            diffuse += surface_diffuse(params, light, local_light);
+        if (WARD)
+            mirrored += specular(WARD_MODEL, params, light, local_light, local_viewer);
     }
+    // The hollows the paper lets glow are dimmed as they are for ambient light, but not in its own model.
+    if (TRANSLUCENCY)
+        diffuse += v_subsurface * part.translucency * (TRANSLUCENCY_MODEL == TRANSLUCENCY_PUBLISHED ? 1 : skin.occlusion);
+    const vec3 radiance = diffuse * skin.albedo + mirrored * skin.occlusion;
     out_color = vec4(finite_radiance(radiance), albedo.a);
 }

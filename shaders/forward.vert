@@ -1,9 +1,20 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+// The head's vertices. What is smooth over the surface is computed here: the translucent light of eq. (6) and where the
+// point lies in the key light's shadow map.
+#include "lib/shading.glsl"
+#include "lib/shadow.glsl"
 #include "shared/frame.h"
 
+layout(constant_id = 2) const bool TRANSLUCENCY = true;
+layout(constant_id = 5) const bool SHADOW = true;
+layout(constant_id = 8) const uint TRANSLUCENCY_MODEL = TRANSLUCENCY_BOUNDED;
+
 layout(scalar, binding = 0) uniform View_ { View view; };
+layout(scalar, binding = 2) uniform Shading_ { ShadingParams shading; };
+layout(scalar, binding = 3) uniform Lighting_ { Lighting lighting; };
+layout(scalar, binding = 13) uniform Shadow_ { Shadow shadow; };
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -14,6 +25,8 @@ layout(location = 0) out vec3 v_position;
 layout(location = 1) out vec3 v_normal;
 layout(location = 2) out vec4 v_tangent;
 layout(location = 3) out vec2 v_uv;
+layout(location = 4) out vec3 v_subsurface;
+layout(location = 5) out vec4 v_shadow_place;
 
 void main()
 {
@@ -21,5 +34,12 @@ void main()
     v_normal = normal;
     v_tangent = tangent;
     v_uv = uv;
+    v_subsurface = vec3(0);
+    if (TRANSLUCENCY)
+        for (uint i = 0; i < lighting.count; ++i)
+            v_subsurface += subsurface_diffuse(TRANSLUCENCY_MODEL, shading, lighting.light[i], position);
+    v_shadow_place = vec4(0);
+    if (SHADOW)
+        v_shadow_place = shadow_place(shadow, position, normal, sample_light(lighting.light[0], position).direction);
     gl_Position = view.clip_from_world * vec4(position, 1);
 }
