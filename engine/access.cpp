@@ -25,10 +25,11 @@ constexpr std::array<AccessRow, 8> table{{
      VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
      VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
      VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT},
-    {Usage::CopySource, "copied from", VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
+    {Usage::CopySource, "copied from", VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
      VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, false, VK_IMAGE_USAGE_TRANSFER_SRC_BIT},
-    {Usage::CopyDestination, "copied to", VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-     VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, true, VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+    {Usage::CopyDestination, "copied to", VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+     VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, true,
+     VK_IMAGE_USAGE_TRANSFER_DST_BIT},
     {Usage::HostRead, "read by the host", VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT,
      VK_IMAGE_LAYOUT_UNDEFINED, false, 0},
 }};
@@ -37,7 +38,8 @@ constexpr VkAccessFlags2 all_writes =
     VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
 
-/// Waits for whatever touched the image last. Readers need no flush: a write they saw has been flushed for them.
+/// Waits for whatever touched the image last. Readers need
+/// no flush: a write they saw has been flushed for them.
 Barrier after_last_access(const AccessState& state, const AccessRow& next)
 {
     return {.src_stages = state.read_stages ? state.read_stages : state.write_stages,
@@ -60,17 +62,14 @@ const AccessRow& access_row(Usage usage)
 std::optional<Barrier> advance(AccessState& state, Usage usage)
 {
     const AccessRow& next = access_row(usage);
-    if (next.writes)
-    {
+    if (next.writes) {
         Barrier barrier = after_last_access(state, next);
         barrier.old_layout = VK_IMAGE_LAYOUT_UNDEFINED; // every writer replaces the whole contents
-        state = {.layout = next.layout,
-                 .write_stages = next.stages,
-                 .write_access = next.access & all_writes};
+        state = {
+            .layout = next.layout, .write_stages = next.stages, .write_access = next.access & all_writes};
         return barrier;
     }
-    if (state.layout != next.layout)
-    {
+    if (state.layout != next.layout) {
         // A transition is itself a write; the barrier that does it has flushed everything before it.
         const Barrier barrier = after_last_access(state, next);
         state = {.layout = next.layout,

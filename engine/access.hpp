@@ -1,5 +1,5 @@
-// How the GPU touches an image, as one table: usage -> stages, access, layout. A barrier is an old row -> a new row.
-// Nothing here calls Vulkan; tests/access_test.cpp reads the table as data.
+// How the GPU touches an image, as one table: usage -> stages, access, layout. A barrier is an old row -> a
+// new row. Nothing here calls Vulkan; tests/access_test.cpp reads the table as data.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -14,7 +14,7 @@ enum class Usage : std::uint8_t
     Stored,          // storage image of a compute shader, written whole
     Color,           // colour attachment or the target of a resolve
     Depth,
-    CopySource,      // read back, or copied to a window
+    CopySource,      // read back, or copied or blitted to a window
     CopyDestination, // uploads
     HostRead,        // buffers only: the end of a read-back
 };
@@ -26,8 +26,8 @@ struct AccessRow
     VkPipelineStageFlags2 stages;
     VkAccessFlags2 access;
     VkImageLayout layout;
-    bool writes;              // and then replaces all of the image's contents
-    VkImageUsageFlags image;  // what the image must have been created for
+    bool writes;             // and then replaces all of the image's contents
+    VkImageUsageFlags image; // what the image must have been created for
 };
 
 const AccessRow& access_row(Usage usage);
@@ -36,9 +36,9 @@ const AccessRow& access_row(Usage usage);
 struct AccessState
 {
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    VkPipelineStageFlags2 write_stages = 0; // of the last write or layout transition
-    VkAccessFlags2 write_access = 0;        // of the last write, as long as it has not been flushed
-    VkPipelineStageFlags2 read_stages = 0;  // all that read since then
+    VkPipelineStageFlags2 write_stages = 0;   // of the last write or layout transition
+    VkAccessFlags2 write_access = 0;          // of the last write, as long as it has not been flushed
+    VkPipelineStageFlags2 read_stages = 0;    // all that read since then
     VkPipelineStageFlags2 visible_stages = 0; // to which the last write has been made visible
     VkAccessFlags2 visible_access = 0;
     bool operator==(const AccessState&) const = default;

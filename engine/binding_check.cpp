@@ -1,5 +1,6 @@
 #include "engine/binding_check.hpp"
 
+#include "engine/find_named.hpp"
 #include "engine/formats.hpp"
 #include "engine/mesh_buffer.hpp"
 
@@ -13,12 +14,6 @@ namespace {
 
 // Every device takes uniform blocks of this size (maxUniformBufferRange).
 constexpr std::uint32_t max_uniform_bytes = 16384;
-
-template <typename Named> const Named* find_named(const std::vector<Named>& list, std::string_view name)
-{
-    const auto found = std::find_if(list.begin(), list.end(), [&](const Named& n) { return n.name == name; });
-    return found == list.end() ? nullptr : &*found;
-}
 
 /// Every name that `bindings` gives a value.
 std::set<std::string> given_names(const Bindings& bindings)
@@ -47,8 +42,7 @@ class Checker
 
     std::vector<std::string> run()
     {
-        for (const Pass& pass : graph.passes)
-        {
+        for (const Pass& pass : graph.passes) {
             pass_name = name_of(pass);
             std::visit([&](const auto& p) { check(p); }, pass);
         }
@@ -56,9 +50,11 @@ class Checker
     }
 
   private:
-    template <typename... Args> void complain(fmt::format_string<Args...> format, Args&&... args)
+    template <typename... Args>
+    void complain(fmt::format_string<Args...> format, Args&&... args)
     {
-        lines.push_back(fmt::format("pass {}: ", pass_name) + fmt::format(format, std::forward<Args>(args)...));
+        lines.push_back(fmt::format("pass {}: ", pass_name) +
+                        fmt::format(format, std::forward<Args>(args)...));
     }
 
     void check(const ComputePass& pass)
@@ -77,13 +73,11 @@ class Checker
     void check(const RasterPass& pass)
     {
         std::set<std::string> unused = given_names(pass);
-        for (const Draw& draw : pass.draws)
-        {
+        for (const Draw& draw : pass.draws) {
             const ShaderGroup& group = library.group(draw.shader);
             if (draw.shader.ends_with(".comp"))
                 complain("{} is a compute shader", draw.shader);
-            else if (usable(group))
-            {
+            else if (usable(group)) {
                 check_values(group, BindingScope(draw, pass));
                 check_inputs(group, draw);
                 if (const auto written = group.stages.back()->interface.outputs; written < pass.colors.size())
@@ -118,16 +112,16 @@ class Checker
 
     void check_value(const ShaderGroup& group, const ShaderGroup::Binding& binding, const BindingScope& scope)
     {
-        const auto missing = [&](const char* what)
-        { complain("shader {} is given no {} for {}", group.name, what, binding.name); };
-        switch (binding.type)
-        {
+        const auto missing = [&](const char* what) {
+            complain("shader {} is given no {} for {}", group.name, what, binding.name);
+        };
+        switch (binding.type) {
         case VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER:
             if (const auto* sampled = scope.sampled(binding.name); !sampled)
                 missing("image");
             else if (sampled->images.size() != binding.count)
-                complain("shader {} wants {} images for {} and is given {}", group.name, binding.count, binding.name,
-                         sampled->images.size());
+                complain("shader {} wants {} images for {} and is given {}", group.name, binding.count,
+                         binding.name, sampled->images.size());
             return;
         case VK_DESCRIPTOR_TYPE_STORAGE_IMAGE:
             if (const auto* stored = scope.stored(binding.name); !stored)
@@ -145,24 +139,24 @@ class Checker
     void check_data(const ShaderGroup& group, const ShaderGroup::Binding& binding, const Bindings::Data* data)
     {
         const bool storage = binding.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        if (!data || data->storage != storage)
-        {
-            complain("shader {} is given no {} for {}", group.name, storage ? "buffer" : "uniform", binding.name);
+        if (!data || data->storage != storage) {
+            complain("shader {} is given no {} for {}", group.name, storage ? "buffer" : "uniform",
+                     binding.name);
             return;
         }
         if (!storage && binding.size > max_uniform_bytes)
             complain("uniform {} has {} bytes; more than {} must be a buffer", binding.name, binding.size,
                      max_uniform_bytes);
         if (!storage && data->bytes.size() != binding.size)
-            complain("shader {} wants {} bytes for {} and is given {}", group.name, binding.size, binding.name,
-                     data->bytes.size());
+            complain("shader {} wants {} bytes for {} and is given {}", group.name, binding.size,
+                     binding.name, data->bytes.size());
         if (storage && binding.size != 0 && binding.stride == 0 && data->bytes.size() != binding.size)
-            complain("shader {} wants {} bytes for {} and is given {}", group.name, binding.size, binding.name,
-                     data->bytes.size());
+            complain("shader {} wants {} bytes for {} and is given {}", group.name, binding.size,
+                     binding.name, data->bytes.size());
         if (storage && binding.stride != 0 &&
             (data->bytes.size() < binding.size || (data->bytes.size() - binding.size) % binding.stride != 0))
-            complain("shader {} wants elements of {} bytes for {} and is given {} bytes", group.name, binding.stride,
-                     binding.name, data->bytes.size());
+            complain("shader {} wants elements of {} bytes for {} and is given {} bytes", group.name,
+                     binding.stride, binding.name, data->bytes.size());
     }
 
     void check_inputs(const ShaderGroup& group, const Draw& draw)
@@ -194,7 +188,10 @@ const Bindings::Sampled* BindingScope::sampled(std::string_view name) const
     return found || !outer ? found : find_named(outer->sampled, name);
 }
 
-const Bindings::Stored* BindingScope::stored(std::string_view name) const { return find_named(own.stored, name); }
+const Bindings::Stored* BindingScope::stored(std::string_view name) const
+{
+    return find_named(own.stored, name);
+}
 
 const Bindings::Data* BindingScope::data(std::string_view name) const
 {

@@ -1,4 +1,5 @@
-// Whether every pass gives its shaders what they ask for, and nothing else. Needs the shaders' reflection, not a device.
+// Whether every pass gives its shaders what they ask for, and
+// nothing else. Needs the shaders' reflection, not a device.
 #pragma once
 #include "engine/graph.hpp"
 #include "engine/shader_library.hpp"

@@ -11,6 +11,15 @@
 #include <fmt/format.h>
 #include <mutex>
 
+#ifdef __SANITIZE_ADDRESS__
+// Drivers and layers are kept loaded to the end, or the leak
+// checker could not tell what they still hold from what is lost.
+extern "C" int dlclose(void*)
+{
+    return 0;
+}
+#endif
+
 namespace engine {
 
 namespace {
@@ -41,8 +50,9 @@ bool has_layer(const char* name)
     check(vkEnumerateInstanceLayerProperties(&count, nullptr), "list the layers");
     std::vector<VkLayerProperties> layers(count);
     check(vkEnumerateInstanceLayerProperties(&count, layers.data()), "list the layers");
-    return std::any_of(layers.begin(), layers.end(),
-                       [&](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, name) == 0; });
+    return std::any_of(layers.begin(), layers.end(), [&](const VkLayerProperties& layer) {
+        return std::strcmp(layer.layerName, name) == 0;
+    });
 }
 
 bool has_instance_extension(const char* name)
@@ -51,12 +61,13 @@ bool has_instance_extension(const char* name)
     check(vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr), "list the extensions");
     std::vector<VkExtensionProperties> extensions(count);
     check(vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data()), "list the extensions");
-    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension)
-                       { return std::strcmp(extension.extensionName, name) == 0; });
+    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
 }
 
-/// Debug utils (names, labels, messages) are on wherever there are any: volk keeps one table of entry points for the
-/// process, so every instance must offer the same ones.
+/// Debug utils (names, labels, messages) are on wherever there are any: volk keeps one table of entry points
+/// for the process, so every instance must offer the same ones.
 VkInstance make_instance(std::vector<const char*> extensions, const void* next, bool validation)
 {
     if (has_instance_extension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
@@ -88,7 +99,8 @@ struct Device::Messages
 
     static VKAPI_ATTR VkBool32 VKAPI_CALL receive(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                                   VkDebugUtilsMessageTypeFlagsEXT,
-                                                  const VkDebugUtilsMessengerCallbackDataEXT* data, void* user)
+                                                  const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                                  void* user)
     {
         // Drivers speak through the same channel; Mesa's remarks name its source files ("../src/...").
         const std::string_view id = data->pMessageIdName ? data->pMessageIdName : "";
@@ -113,26 +125,25 @@ struct Device::Messages
 
 Device::Device(const DeviceOptions& options) : messages(std::make_unique<Messages>())
 {
-    try
-    {
+    try {
         create_instance(options);
         const std::string wanted = options.device.empty() ? environment("CICATRIX_DEVICE") : options.device;
         physical = choose_device(enumerate_devices(vk_instance), wanted);
         create_device(options);
-    }
-    catch (...)
-    {
+    } catch (...) {
         destroy();
         throw;
     }
 }
 
-Device::~Device() { destroy(); }
+Device::~Device()
+{
+    destroy();
+}
 
 void Device::destroy()
 {
-    if (vk_device)
-    {
+    if (vk_device) {
         vkDeviceWaitIdle(vk_device);
         vkDestroyDevice(vk_device, nullptr);
     }
@@ -146,8 +157,7 @@ void Device::create_instance(const DeviceOptions& options)
 {
     load_vulkan();
     const bool validation = options.validation || environment("CICATRIX_VALIDATION") == "1";
-    if (!validation)
-    {
+    if (!validation) {
         vk_instance = make_instance(options.instance_extensions, nullptr, false);
         return;
     }
@@ -155,7 +165,8 @@ void Device::create_instance(const DeviceOptions& options)
         throw InputError("Vulkan validation", fmt::format("the layer {} is not installed", validation_layer),
                          "install it (Debian: vulkan-validationlayers) or do without validation");
     VkDebugUtilsMessengerCreateInfoEXT listener = messages->create_info();
-    const VkValidationFeatureEnableEXT synchronisation = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    const VkValidationFeatureEnableEXT synchronisation =
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     const VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
                                            .pNext = &listener, // hears what is said about the instance itself
                                            .enabledValidationFeatureCount = 1,
@@ -183,13 +194,13 @@ void Device::create_device(const DeviceOptions& options)
                                              .queueFamilyIndex = physical.queue_family,
                                              .queueCount = 1,
                                              .pQueuePriorities = &priority};
-    const VkDeviceCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
-        .pNext = &features,
-        .queueCreateInfoCount = 1,
-        .pQueueCreateInfos = &queue_info,
-        .enabledExtensionCount = static_cast<std::uint32_t>(options.device_extensions.size()),
-        .ppEnabledExtensionNames = options.device_extensions.data()};
+    const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                  .pNext = &features,
+                                  .queueCreateInfoCount = 1,
+                                  .pQueueCreateInfos = &queue_info,
+                                  .enabledExtensionCount =
+                                      static_cast<std::uint32_t>(options.device_extensions.size()),
+                                  .ppEnabledExtensionNames = options.device_extensions.data()};
     check(vkCreateDevice(physical.handle, &info, nullptr, &vk_device), "create a Vulkan device");
     vkGetDeviceQueue(vk_device, physical.queue_family, 0, &vk_queue);
 }

@@ -1,5 +1,5 @@
-// The Vulkan instance, the device and its queue. Headless; a window adds the extensions it needs through DeviceOptions.
-// The Vulkan library is loaded at run time, so a machine without it gets one clear line.
+// The Vulkan instance, the device and its queue. Headless; a window adds the extensions it needs through
+// DeviceOptions. The Vulkan library is loaded at run time, so a machine without it gets one clear line.
 #pragma once
 #include "engine/device_choice.hpp"
 
@@ -13,8 +13,8 @@ namespace engine {
 
 struct DeviceOptions
 {
-    std::string device;      // part of a name or an index; empty: environment CICATRIX_DEVICE, else the best
-    bool validation = false; // validation with synchronisation validation; CICATRIX_VALIDATION=1 does the same
+    std::string device; // part of a name or an index; empty: environment CICATRIX_DEVICE, else the best
+    bool validation = false; // with synchronisation validation; CICATRIX_VALIDATION=1 does the same
     std::vector<const char*> instance_extensions, device_extensions; // beyond what headless work needs
 };
 
@@ -22,7 +22,8 @@ struct DeviceOptions
 class Device
 {
   public:
-    /// Throws cicatrix::InputError: no Vulkan library, no fit device (and why each was refused), no validation layer.
+    /// Throws cicatrix::InputError: no Vulkan library, no fit
+    /// device (and why each was refused), no validation layer.
     explicit Device(const DeviceOptions& options = {});
     ~Device();
     Device(const Device&) = delete;
@@ -37,10 +38,14 @@ class Device
     std::uint32_t queue_family() const { return physical.queue_family; }
     std::uint32_t timestamp_bits() const { return info().timestamps ? physical.timestamp_bits : 0; }
 
-    /// The memory type among `allowed_types` that has all of `required`, and all of `preferred` where there is one.
+    /// The memory type among `allowed_types` that has all of
+    /// `required`, and all of `preferred` where there is one.
     std::uint32_t memory_type(std::uint32_t allowed_types, VkMemoryPropertyFlags required,
                               VkMemoryPropertyFlags preferred) const;
-    VkMemoryPropertyFlags memory_flags(std::uint32_t type) const { return memory.memoryTypes[type].propertyFlags; }
+    VkMemoryPropertyFlags memory_flags(std::uint32_t type) const
+    {
+        return memory.memoryTypes[type].propertyFlags;
+    }
 
     /// Records commands, submits them and waits. For uploads.
     void run_once(const std::function<void(VkCommandBuffer)>& record) const;
@@ -48,7 +53,8 @@ class Device
     /// Shown by validation messages and debuggers; does nothing without VK_EXT_debug_utils.
     void name(VkObjectType type, std::uint64_t object, const std::string& name) const;
 
-    /// Every warning and error of the validation layers since clear_validation_messages(). Empty without validation.
+    /// Every warning and error of the validation layers since
+    /// clear_validation_messages(). Empty without validation.
     std::vector<std::string> validation_messages() const;
     void clear_validation_messages();
 

@@ -42,8 +42,7 @@ constexpr std::array<Requirement, 5> required_features{{
 
 const char* type_name(VkPhysicalDeviceType type)
 {
-    switch (type)
-    {
+    switch (type) {
     case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
         return "discrete GPU";
     case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
@@ -72,10 +71,10 @@ void find_queue_family(PhysicalDevice& device)
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, families.data());
     constexpr VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    const auto family = std::find_if(families.begin(), families.end(), [](const VkQueueFamilyProperties& f)
-                                     { return (f.queueFlags & needed) == needed; });
-    if (family == families.end())
-    {
+    const auto family = std::find_if(families.begin(), families.end(), [](const VkQueueFamilyProperties& f) {
+        return (f.queueFlags & needed) == needed;
+    });
+    if (family == families.end()) {
         device.info.missing.push_back("a queue for graphics and compute");
         return;
     }
@@ -91,8 +90,7 @@ void check_requirements(PhysicalDevice& device)
     for (const Requirement& requirement : required_features)
         if (!requirement.met(features))
             device.info.missing.push_back(requirement.name);
-    for (const Format& format : formats())
-    {
+    for (const Format& format : formats()) {
         VkFormatProperties properties{};
         vkGetPhysicalDeviceFormatProperties(device.handle, format.format, &properties);
         if ((properties.optimalTilingFeatures & format.needed) != format.needed)
@@ -111,7 +109,8 @@ void describe_memory_and_driver(PhysicalDevice& device)
         if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
             device.info.memory_gib += static_cast<double>(memory.memoryHeaps[i].size) / (1u << 30);
     VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
-    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                           .pNext = &driver};
     vkGetPhysicalDeviceProperties2(device.handle, &properties);
     device.info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
 }
@@ -129,8 +128,7 @@ PhysicalDevice inspect(VkPhysicalDevice handle)
         if (limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts & count)
             device.info.sample_counts.push_back(count);
     find_queue_family(device);
-    if (device.properties.apiVersion < VK_API_VERSION_1_3)
-    {
+    if (device.properties.apiVersion < VK_API_VERSION_1_3) {
         device.info.missing.insert(device.info.missing.begin(), "Vulkan 1.3");
         return device; // an older driver may not be asked about the rest
     }
@@ -167,8 +165,9 @@ const PhysicalDevice* find_wanted(const std::vector<PhysicalDevice>& devices, st
     const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
     if (error == std::errc{} && end == wanted.data() + wanted.size() && index < devices.size())
         return &devices[index];
-    const auto named = std::find_if(devices.begin(), devices.end(), [&](const PhysicalDevice& device)
-                                    { return lower(device.info.name).find(lower(wanted)) != std::string::npos; });
+    const auto named = std::find_if(devices.begin(), devices.end(), [&](const PhysicalDevice& device) {
+        return lower(device.info.name).find(lower(wanted)) != std::string::npos;
+    });
     return named == devices.end() ? nullptr : &*named;
 }
 
@@ -191,8 +190,7 @@ const PhysicalDevice& choose_device(const std::vector<PhysicalDevice>& devices, 
     if (devices.empty())
         throw InputError("Vulkan", "no device found",
                          "install a driver (Debian: mesa-vulkan-drivers, which can also draw on the CPU)");
-    if (!wanted.empty())
-    {
+    if (!wanted.empty()) {
         const PhysicalDevice* device = find_wanted(devices, wanted);
         if (!device)
             throw InputError(fmt::format("device '{}'", wanted), "there is no such device",
@@ -205,8 +203,7 @@ const PhysicalDevice& choose_device(const std::vector<PhysicalDevice>& devices, 
     }
     const PhysicalDevice* best = nullptr;
     std::vector<std::string> refused;
-    for (const PhysicalDevice& device : devices)
-    {
+    for (const PhysicalDevice& device : devices) {
         if (!device.info.missing.empty())
             refused.push_back(
                 fmt::format("{} lacks {}", device.info.name, fmt::join(device.info.missing, ", ")));
@@ -222,18 +219,19 @@ const PhysicalDevice& choose_device(const std::vector<PhysicalDevice>& devices, 
 std::string to_text(const std::vector<PhysicalDevice>& devices)
 {
     std::string text;
-    for (std::size_t i = 0; i < devices.size(); ++i)
-    {
+    for (std::size_t i = 0; i < devices.size(); ++i) {
         const DeviceInfo& info = devices[i].info;
         text += fmt::format("{}: {}\n", i, info.name);
-        text += fmt::format("   type        {}{}\n", info.type, info.software ? " (software rasteriser)" : "");
+        text +=
+            fmt::format("   type        {}{}\n", info.type, info.software ? " (software rasteriser)" : "");
         text += fmt::format("   driver      {}\n", info.driver);
         text += fmt::format("   Vulkan      {}\n", version_text(info.api_version));
         text += fmt::format("   memory      {:.1f} GiB\n", info.memory_gib);
         text += fmt::format("   timestamps  {}\n", info.timestamps ? "yes" : "no: passes have no GPU times");
         text += fmt::format("   samples     {}\n", fmt::join(info.sample_counts, ", "));
-        text += info.missing.empty() ? "   fit         yes\n"
-                                     : fmt::format("   fit         no, it lacks {}\n", fmt::join(info.missing, ", "));
+        text += info.missing.empty()
+                    ? "   fit         yes\n"
+                    : fmt::format("   fit         no, it lacks {}\n", fmt::join(info.missing, ", "));
     }
     return text;
 }

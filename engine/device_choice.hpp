@@ -11,9 +11,10 @@ namespace engine {
 /// What `cicatrix info` prints about a device.
 struct DeviceInfo
 {
-    std::string name, type, driver; // type: "discrete GPU", "CPU", ...; driver: name and version as the driver says
-    std::uint32_t api_version = 0;  // VK_API_VERSION
-    double memory_gib = 0;          // of all heaps on the device
+    std::string name, type,
+        driver; // type: "discrete GPU", "CPU", ...; driver: name and version as the driver says
+    std::uint32_t api_version = 0; // VK_API_VERSION
+    double memory_gib = 0;         // of all heaps on the device
     bool timestamps = false;
     std::vector<std::uint32_t> sample_counts; // of colour and depth targets
     bool software = false;                    // a rasteriser that runs on the CPU
@@ -31,8 +32,9 @@ struct PhysicalDevice
 
 std::vector<PhysicalDevice> enumerate_devices(VkInstance instance);
 
-/// The device that `wanted` names (an index in the list, or part of a name, any case), or, when it is empty, the best fit
-/// one: discrete before integrated before virtual before CPU. Throws cicatrix::InputError saying why each was refused.
+/// The device that `wanted` names (an index in the list, or part of a name, any case), or, when it is empty,
+/// the best fit one: discrete before integrated before virtual before CPU. Throws cicatrix::InputError saying
+/// why each was refused.
 const PhysicalDevice& choose_device(const std::vector<PhysicalDevice>& devices, std::string_view wanted);
 
 /// The list as `cicatrix info` prints it.

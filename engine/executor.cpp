@@ -29,7 +29,8 @@ class Label
   public:
     Label(VkCommandBuffer to, const std::string& name) : commands(to)
     {
-        const VkDebugUtilsLabelEXT info{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = name.c_str()};
+        const VkDebugUtilsLabelEXT info{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
+                                        .pLabelName = name.c_str()};
         if (vkCmdBeginDebugUtilsLabelEXT)
             vkCmdBeginDebugUtilsLabelEXT(commands, &info);
     }
@@ -72,9 +73,9 @@ struct Executor::Frame
     FrameSlot slot;
     std::uint64_t number = 0;
     Clock::time_point start;
-    FrameResult result;                    // without what only the finished frame knows
-    std::vector<VkDeviceSize> offsets;     // of the read-backs
-    const Buffer* readback = nullptr;      // null when there are none
+    FrameResult result;                // without what only the finished frame knows
+    std::vector<VkDeviceSize> offsets; // of the read-backs
+    const Buffer* readback = nullptr;  // null when there are none
 };
 
 Executor::Executor(const Device& used, const ShaderLibrary& shaders)
@@ -86,7 +87,10 @@ Executor::Executor(const Device& used, const ShaderLibrary& shaders)
 
 Executor::~Executor() = default; // the frames, destroyed first, wait for what is in flight
 
-FrameResult Executor::run(const Graph& graph) { return finish(submit(graph)); }
+FrameResult Executor::run(const Graph& graph)
+{
+    return finish(submit(graph));
+}
 
 FrameToken Executor::submit(const Graph& graph)
 {
@@ -120,22 +124,18 @@ FrameResult Executor::finish(FrameToken token)
     frame.slot.wait();
     FrameResult result = std::move(frame.result);
     frame.number = 0;
-    if (frame.slot.has_timestamps())
-    {
+    if (frame.slot.has_timestamps()) {
         std::size_t tick = 0;
         for (PassResult& pass : result.passes)
-            if (pass.state == PassState::Run)
-            {
+            if (pass.state == PassState::Run) {
                 pass.gpu_ms = frame.slot.milliseconds(tick, tick + 1);
                 tick += 2;
             }
         result.gpu_ms = tick > 0 ? frame.slot.milliseconds(0, tick - 1) : 0.0;
     }
-    if (frame.readback)
-    {
+    if (frame.readback) {
         frame.readback->invalidate();
-        for (std::size_t i = 0; i < result.readbacks.size(); ++i)
-        {
+        for (std::size_t i = 0; i < result.readbacks.size(); ++i) {
             std::vector<std::byte>& bytes = result.readbacks[i].bytes;
             std::memcpy(bytes.data(), frame.readback->mapped().data() + frame.offsets[i], bytes.size());
         }
@@ -153,25 +153,22 @@ VkImage Executor::presented(std::string_view image_name) const
 /// Makes the images this frame touches, and lets go of those that are declared differently or no longer.
 void Executor::match_images(const Graph& graph, const Plan& plan)
 {
-    const auto fits = [&](const std::string& name, const Image& image)
-    {
+    const auto fits = [&](const std::string& name, const Image& image) {
         const auto state = plan.memory.images.find(name);
         return state != plan.memory.images.end() && state->second.desc == image.desc() &&
                state->second.usage == image.usage();
     };
-    for (auto image = images.begin(); image != images.end();)
-    {
-        if (fits(image->first, image->second))
-        {
+    for (auto image = images.begin(); image != images.end();) {
+        if (fits(image->first, image->second)) {
             ++image;
             continue;
         }
-        check(vkQueueWaitIdle(device.queue()), "finish the frames that use an image"); // rare: a change of size
+        check(vkQueueWaitIdle(device.queue()),
+              "finish the frames that use an image"); // rare: a change of size
         memory.images.erase(image->first);
         image = images.erase(image);
     }
-    for (std::size_t i = 0; i < graph.images.size(); ++i)
-    {
+    for (std::size_t i = 0; i < graph.images.size(); ++i) {
         const std::string& name = graph.images[i].name;
         if (graph.images[i].external || plan.images[i].first == ~0u || images.contains(name))
             continue;
@@ -183,8 +180,7 @@ void Executor::match_images(const Graph& graph, const Plan& plan)
 std::vector<BoundImage> Executor::bind_images(const Graph& graph) const
 {
     std::vector<BoundImage> bound;
-    for (const Graph::Image& image : graph.images)
-    {
+    for (const Graph::Image& image : graph.images) {
         if (image.external)
             bound.push_back({VK_NULL_HANDLE, image.external->view});
         else if (const auto own = images.find(image.name); own != images.end())
@@ -199,8 +195,7 @@ void Executor::record_passes(const Graph& graph, Frame& frame, VkCommandBuffer c
                              std::span<const BoundImage> bound)
 {
     Recorder recorder(device, graph, pipelines, frame.slot, commands, bound);
-    for (const PassPlan& planned : frame.result.plan.passes)
-    {
+    for (const PassPlan& planned : frame.result.plan.passes) {
         PassResult& result = frame.result.passes.emplace_back();
         result.name = planned.name;
         result.state = planned.state;
@@ -210,8 +205,8 @@ void Executor::record_passes(const Graph& graph, Frame& frame, VkCommandBuffer c
         const Clock::time_point start = Clock::now();
         const Label label(commands, planned.name);
         frame.slot.timestamp();
-        // Every pass writes an image, so there always is a barrier between this timestamp and a dispatch. llvmpipe needs
-        // it: without one it reports next to no time for the dispatch.
+        // Every pass writes an image, so there always is a barrier between this timestamp and a dispatch.
+        // llvmpipe needs it: without one it reports next to no time for the dispatch.
         assert(!planned.barriers.empty());
         recorder.barriers(planned.barriers);
         const Pass& pass = graph.passes[planned.pass];
@@ -231,8 +226,7 @@ void Executor::record_readbacks(const Graph& graph, Frame& frame, Recorder& reco
     frame.offsets.clear();
     frame.readback = nullptr;
     VkDeviceSize size = 0;
-    for (const Graph::Readback& readback : graph.readbacks)
-    {
+    for (const Graph::Readback& readback : graph.readbacks) {
         const ImageDesc& desc = graph.images[readback.image.index].desc;
         const std::size_t bytes = std::size_t{desc.width} * desc.height * find_format(desc.format)->bytes;
         frame.offsets.push_back(size);

@@ -1,5 +1,5 @@
-// Executes declared frames on a device: schedules them, keeps the images, records only what must run, labels and times
-// every pass, reads results back. One Executor per device; it must be gone before the device.
+// Executes declared frames on a device: schedules them, keeps the images, records only what must run, labels
+// and times every pass, reads results back. One Executor per device; it must be gone before the device.
 #pragma once
 #include "engine/device.hpp"
 #include "engine/frame_slot.hpp"
@@ -65,8 +65,9 @@ class Executor
     Executor(const Executor&) = delete;
     Executor& operator=(const Executor&) = delete;
 
-    /// Runs one frame and waits for it. Throws std::logic_error when the graph is declared wrongly, naming every mistake,
-    /// and cicatrix::InputError when the device fails; the next frame starts from what was finished before.
+    /// Runs one frame and waits for it. Throws std::logic_error when the graph
+    /// is declared wrongly, naming every mistake, and cicatrix::InputError when
+    /// the device fails; the next frame starts from what was finished before.
     FrameResult run(const Graph& graph);
 
     /// The same in two steps, with up to two frames in flight; a third submit waits for the first.
@@ -74,7 +75,8 @@ class Executor
     /// Must be asked for before the second submit after this one.
     FrameResult finish(FrameToken token);
 
-    /// The image a graph presented last, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, for commands submitted to the same queue.
+    /// The image a graph presented last, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+    /// for commands submitted to the same queue.
     VkImage presented(std::string_view image_name) const;
 
     /// Forgets what the images hold: the next frame runs everything it needs.

@@ -15,8 +15,8 @@ constexpr VkFormatFeatureFlags depth =
     VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
 
 constexpr std::array<Format, 11> table{{
-    {VK_FORMAT_R8_UNORM, "R8", 1, CV_8UC1, sampled | target},
-    {VK_FORMAT_R8G8_UNORM, "RG8", 2, CV_8UC2, sampled | target},
+    {VK_FORMAT_R8_UNORM, "R8", 1, CV_8UC1, sampled | target | stored},
+    {VK_FORMAT_R8G8_UNORM, "RG8", 2, CV_8UC2, sampled | target | stored},
     {VK_FORMAT_R8G8B8A8_UNORM, "RGBA8", 4, CV_8UC4, sampled | target | stored},
     {VK_FORMAT_R8G8B8A8_SRGB, "RGBA8_SRGB", 4, CV_8UC4, sampled},
     {VK_FORMAT_R16_SFLOAT, "R16F", 2, CV_16FC1, sampled | target | stored},
@@ -30,7 +30,10 @@ constexpr std::array<Format, 11> table{{
 
 } // namespace
 
-std::span<const Format> formats() { return table; }
+std::span<const Format> formats()
+{
+    return table;
+}
 
 const Format* find_format(VkFormat format)
 {
@@ -40,6 +43,9 @@ const Format* find_format(VkFormat format)
     return nullptr;
 }
 
-bool is_depth(VkFormat format) { return format == VK_FORMAT_D32_SFLOAT; }
+bool is_depth(VkFormat format)
+{
+    return format == VK_FORMAT_D32_SFLOAT;
+}
 
 } // namespace engine

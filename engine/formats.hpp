@@ -9,9 +9,9 @@ namespace engine {
 struct Format
 {
     VkFormat format;
-    const char* name;    // "RGBA16F"
-    std::uint32_t bytes; // of a texel
-    int cv_type;         // of the cv::Mat that holds it on the CPU
+    const char* name;            // "RGBA16F"
+    std::uint32_t bytes;         // of a texel
+    int cv_type;                 // of the cv::Mat that holds it on the CPU
     VkFormatFeatureFlags needed; // what the device must be able to do with it, optimal tiling
 };
 

@@ -9,22 +9,22 @@
 
 namespace engine {
 
-// ---- UploadArena -------------------------------------------------------------------------------------------------
+// ---- UploadArena
+// -------------------------------------------------------------------------------------------------
 
 UploadedData UploadArena::add(std::span<const std::byte> bytes, VkDeviceSize size, VkDeviceSize alignment)
 {
     constexpr VkDeviceSize block_size = 256 * 1024;
     assert(size >= bytes.size());
     used = (used + alignment - 1) / alignment * alignment;
-    while (block < blocks.size() && used + size > blocks[block].size())
-    {
+    while (block < blocks.size() && used + size > blocks[block].size()) {
         ++block;
         used = 0;
     }
     if (block == blocks.size())
         blocks.emplace_back(device, std::max(size, block_size),
-                            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HostAccess::Write,
-                            "frame data");
+                            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                            HostAccess::Write, "frame data");
     std::byte* to = blocks[block].mapped().data() + used;
     if (!bytes.empty())
         std::memcpy(to, bytes.data(), bytes.size());
@@ -40,12 +40,12 @@ void UploadArena::reset()
     used = 0;
 }
 
-// ---- FrameSlot ---------------------------------------------------------------------------------------------------
+// ---- FrameSlot
+// ---------------------------------------------------------------------------------------------------
 
 FrameSlot::FrameSlot(const Device& used) : device(used), uploads(used)
 {
-    try
-    {
+    try {
         const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                                 .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                                 .queueFamilyIndex = device.queue_family()};
@@ -57,15 +57,16 @@ FrameSlot::FrameSlot(const Device& used) : device(used), uploads(used)
         check(vkAllocateCommandBuffers(device.handle(), &allocate, &commands), "allocate a command buffer");
         const VkFenceCreateInfo fence_info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
         check(vkCreateFence(device.handle(), &fence_info, nullptr, &fence), "create a fence");
-    }
-    catch (...)
-    {
+    } catch (...) {
         destroy();
         throw;
     }
 }
 
-FrameSlot::~FrameSlot() { destroy(); }
+FrameSlot::~FrameSlot()
+{
+    destroy();
+}
 
 void FrameSlot::destroy()
 {
@@ -86,8 +87,7 @@ VkCommandBuffer FrameSlot::begin(std::uint32_t timestamps)
         check(vkResetDescriptorPool(device.handle(), descriptors, 0), "reset descriptors");
     descriptor_pool = 0;
     check(vkResetCommandPool(device.handle(), pool, 0), "reset commands");
-    if (device.timestamp_bits() > 0 && timestamps > query_capacity)
-    {
+    if (device.timestamp_bits() > 0 && timestamps > query_capacity) {
         vkDestroyQueryPool(device.handle(), queries, nullptr);
         queries = VK_NULL_HANDLE;
         const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
@@ -130,11 +130,9 @@ void FrameSlot::wait()
 
 VkDescriptorSet FrameSlot::allocate_set(VkDescriptorSetLayout layout)
 {
-    for (;; ++descriptor_pool)
-    {
+    for (;; ++descriptor_pool) {
         const bool fresh = descriptor_pool == descriptor_pools.size();
-        if (fresh)
-        {
+        if (fresh) {
             constexpr std::array<VkDescriptorPoolSize, 4> sizes{{
                 {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 512},
                 {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 128},
@@ -183,7 +181,8 @@ double FrameSlot::milliseconds(std::size_t from, std::size_t to) const
 const Buffer& FrameSlot::readback(VkDeviceSize bytes)
 {
     if (readback_buffer.size() < bytes)
-        readback_buffer = Buffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostAccess::Read, "read-backs");
+        readback_buffer =
+            Buffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostAccess::Read, "read-backs");
     return readback_buffer;
 }
 
@@ -193,7 +192,8 @@ void FrameSlot::read_ticks()
         return;
     ticks.resize(query_count);
     check(vkGetQueryPoolResults(device.handle(), queries, 0, query_count, ticks.size() * sizeof(ticks[0]),
-                                ticks.data(), sizeof(ticks[0]), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+                                ticks.data(), sizeof(ticks[0]),
+                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "read timestamps");
 }
 

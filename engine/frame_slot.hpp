@@ -28,8 +28,8 @@ class UploadArena
   private:
     const Device& device;
     std::vector<Buffer> blocks;
-    std::size_t block = 0;   // being filled
-    VkDeviceSize used = 0;   // bytes of it
+    std::size_t block = 0; // being filled
+    VkDeviceSize used = 0; // bytes of it
 };
 
 class FrameSlot

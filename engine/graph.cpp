@@ -10,10 +10,11 @@ namespace engine {
 namespace {
 
 /// Adds `value`, or puts it in the place of the one of the same name.
-template <typename Named> void put(std::vector<Named>& list, Named value)
+template <typename Named>
+void put(std::vector<Named>& list, Named value)
 {
-    const auto same = std::find_if(list.begin(), list.end(),
-                                   [&](const Named& other) { return other.name == value.name; });
+    const auto same =
+        std::find_if(list.begin(), list.end(), [&](const Named& other) { return other.name == value.name; });
     if (same != list.end())
         *same = std::move(value);
     else
@@ -32,7 +33,10 @@ void Bindings::sample(std::string_view name, std::span<const ImageId> images, Sa
     put(sampled, Sampled{std::string(name), {images.begin(), images.end()}, sampler});
 }
 
-void Bindings::store(std::string_view name, ImageId image) { put(stored, Stored{std::string(name), image}); }
+void Bindings::store(std::string_view name, ImageId image)
+{
+    put(stored, Stored{std::string(name), image});
+}
 
 void Bindings::constant(std::string_view name, Constant value)
 {
@@ -74,7 +78,10 @@ ImageId Graph::image(std::string_view name, const ImageDesc& desc)
     return {static_cast<std::uint32_t>(images.size() - 1)};
 }
 
-ImageId Graph::import(std::string_view name, const Texture& texture) { return import(name, texture.external()); }
+ImageId Graph::import(std::string_view name, const Texture& texture)
+{
+    return import(name, texture.external());
+}
 
 ImageId Graph::import(std::string_view name, const ExternalImage& external)
 {
@@ -103,7 +110,10 @@ ReadbackId Graph::readback(std::string_view name, ImageId image)
     return {static_cast<std::uint32_t>(readbacks.size() - 1)};
 }
 
-void Graph::present(ImageId image) { presented.push_back(image); }
+void Graph::present(ImageId image)
+{
+    presented.push_back(image);
+}
 
 const std::string& name_of(const Pass& pass)
 {

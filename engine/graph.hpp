@@ -1,21 +1,21 @@
-// The render graph as a pass author sees it: declare images and passes for one frame; Executor::run schedules and
-// executes them. Nothing here calls Vulkan; barriers, layouts, labels and timestamps are not the author's business.
+// The render graph as a pass author sees it: declare images and passes for one
+// frame; Executor::run schedules and executes them. Nothing here calls Vulkan;
+// barriers, layouts, labels and timestamps are not the author's business.
 //
-// A pass's key is computed from what it declares (shader, constants, uniforms, buffers, draws), so it cannot be
-// forgotten. A pass whose key and inputs are those of its last run is skipped; one whose outputs nobody needs is culled.
+// A pass's key is computed from what it declares (shader, constants, uniforms,
+// buffers, draws), so it cannot be forgotten. A pass whose key and inputs are
+// those of its last run is skipped; one whose outputs nobody needs is culled.
 //
 // Every image has exactly one writer, which writes all of it; passes may be declared in any order.
 #pragma once
+#include "engine/bindings.hpp"
+
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <variant>
 #include <vector>
 #include <volk.h>
@@ -25,12 +25,6 @@ namespace engine {
 class Texture;    // an image uploaded from the CPU, with its mip levels
 class MeshBuffer; // vertices and indices on the device
 
-struct ImageId
-{
-    std::uint32_t index = ~0u;
-    bool valid() const { return index != ~0u; }
-    bool operator==(const ImageId&) const = default;
-};
 struct ReadbackId
 {
     std::uint32_t index = ~0u;
@@ -45,76 +39,13 @@ struct ImageDesc
     bool operator==(const ImageDesc&) const = default;
 };
 
-/// An image made outside the graph, always ready to be sampled; `content` names what is in it and is never used twice.
+/// An image made outside the graph, always ready to be sampled;
+/// `content` names what is in it and is never used twice.
 struct ExternalImage
 {
     ImageDesc desc;
     VkImageView view = VK_NULL_HANDLE;
     std::uint64_t content = 0;
-};
-
-enum class Sampler : std::uint8_t
-{
-    LinearClamp,      // bilinear, no mips
-    LinearRepeatMips, // trilinear, repeat
-    LinearClampMips,  // trilinear, clamp
-    NearestClamp,
-};
-
-using Constant = std::variant<bool, std::int32_t, std::uint32_t, float>;
-
-/// What a shader is given, by the names its source uses (for a block: its instance name, or the block's own name when
-/// it has no instance name). A name the shader does not know is an error; so is a binding of the shader that is given
-/// no value. Giving a name twice replaces the first value.
-class Bindings
-{
-  public:
-    /// Samples an image. An array of samplers in the shader takes several images; every element must be given.
-    void sample(std::string_view name, ImageId image, Sampler sampler = Sampler::LinearClamp);
-    void sample(std::string_view name, std::span<const ImageId> images, Sampler sampler = Sampler::LinearClamp);
-    void store(std::string_view name, ImageId image); // storage image, written whole (compute only)
-    /// Uniform block in scalar layout: the C++ struct as it stands (shaders/shared/).
-    template <typename T>
-    void uniform(std::string_view name, const T& value)
-    {
-        static_assert(std::is_trivially_copyable_v<T>);
-        bytes(name, std::as_bytes(std::span(&value, 1)), false);
-    }
-    /// Read-only storage buffer holding an array of T in scalar layout; copied. The shader sees an empty array as one
-    /// zeroed element.
-    template <typename T>
-    void buffer(std::string_view name, std::span<const T> values)
-    {
-        static_assert(std::is_trivially_copyable_v<T>);
-        bytes(name, std::as_bytes(values), true);
-    }
-    /// Specialisation constant (constant_id) by its name in the shader: bool, int, uint or float.
-    void constant(std::string_view name, Constant value);
-
-    struct Sampled
-    {
-        std::string name;
-        std::vector<ImageId> images;
-        Sampler sampler;
-    };
-    struct Stored
-    {
-        std::string name;
-        ImageId image;
-    };
-    struct Data
-    {
-        std::string name;
-        std::vector<std::byte> bytes;
-        bool storage;
-    };
-    std::vector<Sampled> sampled;
-    std::vector<Stored> stored;
-    std::vector<Data> data;
-    std::map<std::string, Constant, std::less<>> constants;
-
-  private:
-    void bytes(std::string_view name, std::span<const std::byte> value, bool storage);
 };
 
 class ComputePass : public Bindings
@@ -134,8 +65,8 @@ class ComputePass : public Bindings
 class Draw : public Bindings
 {
   public:
-    std::string shader;               // stem: "forward" means forward.vert and forward.frag
-    const MeshBuffer* mesh = nullptr; // null: `index_count` vertices without buffers (full-screen triangle: 3)
+    std::string shader; // stem: "forward" means forward.vert and forward.frag
+    const MeshBuffer* mesh = nullptr; // null: `index_count` vertices out of nothing (full-screen triangle: 3)
     std::uint32_t first_index = 0, index_count = 0; // with a mesh, index_count 0 means up to its last index
     bool cull_back_faces = true; // of a mesh; the front is counter-clockwise as seen in the picture
     bool blend = false;          // source alpha over
@@ -146,7 +77,8 @@ class Draw : public Bindings
 class RasterPass : public Bindings
 {
   public:
-    /// Colour target, cleared to `clear` first. With `resolve`, `image` is multisampled and is resolved into it.
+    /// Colour target, cleared to `clear` first. With `resolve`,
+    /// `image` is multisampled and is resolved into it.
     void color(ImageId image, std::array<float, 4> clear, ImageId resolve = {});
     void depth(ImageId image, float clear = 1.0f); // test: less or equal
     Draw& draw(std::string_view shader);
@@ -168,21 +100,24 @@ class RasterPass : public Bindings
 
 using Pass = std::variant<ComputePass, RasterPass>;
 
-/// The declaration of one frame. References returned by compute() and raster() stay valid while the Graph lives.
+/// The declaration of one frame. References returned by
+/// compute() and raster() stay valid while the Graph lives.
 class Graph
 {
   public:
-    /// An image the graph owns. Its contents last from frame to frame under its name, so that its writer can be skipped.
+    /// An image the graph owns. Its contents last from frame to
+    /// frame under its name, so that its writer can be skipped.
     ImageId image(std::string_view name, const ImageDesc& desc);
     /// An image made outside the graph, ready to be sampled. It must outlive the frame.
     ImageId import(std::string_view name, const Texture& texture);
     ImageId import(std::string_view name, const ExternalImage& external);
     ComputePass& compute(std::string_view name, std::string_view shader);
     RasterPass& raster(std::string_view name);
-    /// Copies an image to the host at the end of the frame. This is what makes a pass needed: whatever leads to no
-    /// readback and no presentation is culled.
+    /// Copies an image to the host at the end of the frame. This is what makes a pass needed: whatever leads
+    /// to no readback and no presentation is culled.
     ReadbackId readback(std::string_view name, ImageId image);
-    /// Leaves an image ready to be copied from (to a window, for instance) after the frame: Executor::presented().
+    /// Leaves an image ready to be copied from (to a window,
+    /// for instance) after the frame: Executor::presented().
     void present(ImageId image);
 
     struct Image

@@ -27,8 +27,7 @@ class Checker
             for (const ImageAccess& access : accesses(pass))
                 if (access_row(access.usage).writes && known(access.image))
                     writers[access.image.index].push_back(name_of(pass));
-        for (const Pass& pass : graph.passes)
-        {
+        for (const Pass& pass : graph.passes) {
             check_accesses(pass);
             std::visit([&](const auto& p) { check_pass(p); }, pass);
         }
@@ -39,20 +38,23 @@ class Checker
     }
 
   private:
-    template <typename... Args> void complain(fmt::format_string<Args...> format, Args&&... args)
+    template <typename... Args>
+    void complain(fmt::format_string<Args...> format, Args&&... args)
     {
         lines.push_back(fmt::format(format, std::forward<Args>(args)...));
     }
 
     bool known(ImageId id) const { return id.index < graph.images.size(); }
     const Graph::Image& image(ImageId id) const { return graph.images[id.index]; }
-    std::string image_name(ImageId id) const { return known(id) ? image(id).name : "an image that is not declared"; }
+    std::string image_name(ImageId id) const
+    {
+        return known(id) ? image(id).name : "an image that is not declared";
+    }
 
     void check_images()
     {
         std::set<std::string> names;
-        for (const Graph::Image& image : graph.images)
-        {
+        for (const Graph::Image& image : graph.images) {
             if (image.name.empty())
                 complain("image without a name");
             if (!names.insert(image.name).second)
@@ -62,15 +64,15 @@ class Checker
             if (!find_format(image.desc.format))
                 complain("image {}: its format is not one of engine/formats.cpp", image.name);
             if (image.desc.samples != 1 && image.desc.samples != 4)
-                complain("image {}: {} samples, and only 1 and 4 are possible", image.name, image.desc.samples);
+                complain("image {}: {} samples, and only 1 and 4 are possible", image.name,
+                         image.desc.samples);
         }
     }
 
     void check_names()
     {
         std::set<std::string> names;
-        for (const Pass& pass : graph.passes)
-        {
+        for (const Pass& pass : graph.passes) {
             if (name_of(pass).empty())
                 complain("pass without a name");
             if (!names.insert(name_of(pass)).second)
@@ -82,17 +84,14 @@ class Checker
     {
         const std::string& name = name_of(pass);
         std::set<std::uint32_t> read;
-        for (const auto& [id, usage] : accesses(pass))
-        {
-            if (!known(id))
-            {
+        for (const auto& [id, usage] : accesses(pass)) {
+            if (!known(id)) {
                 complain("pass {}: uses {}", name, image_name(id));
                 continue;
             }
             const Graph::Image& used = image(id);
             const bool depth = is_depth(used.desc.format);
-            if (!access_row(usage).writes)
-            {
+            if (!access_row(usage).writes) {
                 read.insert(id.index);
                 if (!used.external && writers[id.index].empty())
                     complain("pass {}: samples {}, which nobody writes", name, used.name);
@@ -116,7 +115,8 @@ class Checker
         for (const Bindings::Sampled& sampled : bindings.sampled)
             for (const ImageId id : sampled.images)
                 if (known(id) && is_depth(image(id).desc.format) && sampled.sampler != Sampler::NearestClamp)
-                    complain("pass {}: samples {} with a filter, which its depth format does not allow; NearestClamp does",
+                    complain("pass {}: samples {} with a filter, which its depth format does not allow; "
+                             "NearestClamp does",
                              pass, image_name(id));
     }
 
@@ -139,13 +139,14 @@ class Checker
         if (pass.draws.empty())
             complain("pass {}: draws nothing", pass.name);
         check_samplers(pass.name, pass);
-        for (const Draw& draw : pass.draws)
-        {
+        for (const Draw& draw : pass.draws) {
             check_samplers(pass.name, draw);
             if (!draw.mesh && draw.index_count == 0)
-                complain("pass {}: draw {} has neither a mesh nor a number of vertices", pass.name, draw.shader);
+                complain("pass {}: draw {} has neither a mesh nor a number of vertices", pass.name,
+                         draw.shader);
             if (!draw.stored.empty())
-                complain("pass {}: draw {} stores to an image; only a compute pass can", pass.name, draw.shader);
+                complain("pass {}: draw {} stores to an image; only a compute pass can", pass.name,
+                         draw.shader);
         }
         if (!pass.stored.empty())
             complain("pass {}: stores to an image; only a compute pass can", pass.name);
@@ -155,8 +156,7 @@ class Checker
     void check_targets(const RasterPass& pass)
     {
         std::optional<ImageDesc> common;
-        const auto same = [&](ImageId id)
-        {
+        const auto same = [&](ImageId id) {
             if (!known(id))
                 return; // said by check_accesses
             const ImageDesc& desc = image(id).desc;
@@ -186,8 +186,9 @@ class Checker
         if (from.samples == 1)
             complain("pass {}: {} is resolved but not multisampled", pass, image_name(target.image));
         if (image(target.resolve).desc != expected)
-            complain("pass {}: {} cannot take the resolve of {}: same size and format and 1 sample are needed", pass,
-                     image_name(target.resolve), image_name(target.image));
+            complain(
+                "pass {}: {} cannot take the resolve of {}: same size and format and 1 sample are needed",
+                pass, image_name(target.resolve), image_name(target.image));
     }
 
     void check_writers()
@@ -201,8 +202,7 @@ class Checker
     void check_outputs()
     {
         std::set<std::string> names;
-        for (const Graph::Readback& readback : graph.readbacks)
-        {
+        for (const Graph::Readback& readback : graph.readbacks) {
             if (!names.insert(readback.name).second)
                 complain("readback {}: declared twice", readback.name);
             check_output("readback " + readback.name, readback.image);
@@ -231,8 +231,8 @@ class Checker
             if (std::find(order.begin(), order.end(), i) == order.end())
                 stuck.push_back(name_of(graph.passes[i]));
         if (!stuck.empty())
-            complain("pass {}: no order is possible, these passes need each other's images: {}", stuck.front(),
-                     fmt::join(stuck, ", "));
+            complain("pass {}: no order is possible, these passes need each other's images: {}",
+                     stuck.front(), fmt::join(stuck, ", "));
     }
 
     const Graph& graph;
@@ -252,8 +252,7 @@ void add_sampled(std::vector<ImageAccess>& list, const Bindings& bindings, Usage
 std::vector<ImageAccess> accesses(const Pass& pass)
 {
     std::vector<ImageAccess> list;
-    if (const auto* compute = std::get_if<ComputePass>(&pass))
-    {
+    if (const auto* compute = std::get_if<ComputePass>(&pass)) {
         add_sampled(list, *compute, Usage::SampledInCompute);
         for (const Bindings::Stored& stored : compute->stored)
             list.push_back({stored.image, Usage::Stored});
@@ -263,8 +262,7 @@ std::vector<ImageAccess> accesses(const Pass& pass)
     add_sampled(list, raster, Usage::SampledInRaster);
     for (const Draw& draw : raster.draws)
         add_sampled(list, draw, Usage::SampledInRaster);
-    for (const RasterPass::ColorTarget& target : raster.colors)
-    {
+    for (const RasterPass::ColorTarget& target : raster.colors) {
         list.push_back({target.image, Usage::Color});
         if (target.resolve.valid())
             list.push_back({target.resolve, Usage::Color});
@@ -274,37 +272,35 @@ std::vector<ImageAccess> accesses(const Pass& pass)
     return list;
 }
 
-std::vector<std::string> check_graph(const Graph& graph) { return Checker(graph).run(); }
+std::vector<std::string> check_graph(const Graph& graph)
+{
+    return Checker(graph).run();
+}
 
 std::vector<std::uint32_t> order_passes(const Graph& graph)
 {
     const auto count = static_cast<std::uint32_t>(graph.passes.size());
     std::vector<std::vector<ImageAccess>> touched(count);
-    std::map<std::uint32_t, std::set<std::uint32_t>> unwritten; // image -> its writers that are not yet in the order
-    for (std::uint32_t i = 0; i < count; ++i)
-    {
+    std::map<std::uint32_t, std::set<std::uint32_t>>
+        unwritten; // image -> its writers that are not yet in the order
+    for (std::uint32_t i = 0; i < count; ++i) {
         touched[i] = accesses(graph.passes[i]);
         for (const ImageAccess& access : touched[i])
             if (access_row(access.usage).writes)
                 unwritten[access.image.index].insert(i);
     }
-    const auto ready = [&](std::uint32_t pass)
-    {
-        return std::all_of(touched[pass].begin(), touched[pass].end(),
-                           [&](const ImageAccess& access)
-                           {
-                               const auto writers = unwritten.find(access.image.index);
-                               return access_row(access.usage).writes || writers == unwritten.end() ||
-                                      writers->second.empty() || writers->second.contains(pass);
-                           });
+    const auto ready = [&](std::uint32_t pass) {
+        return std::all_of(touched[pass].begin(), touched[pass].end(), [&](const ImageAccess& access) {
+            const auto writers = unwritten.find(access.image.index);
+            return access_row(access.usage).writes || writers == unwritten.end() || writers->second.empty() ||
+                   writers->second.contains(pass);
+        });
     };
     std::vector<std::uint32_t> order;
     std::vector<bool> done(count);
-    for (bool progress = true; progress;)
-    {
+    for (bool progress = true; progress;) {
         progress = false;
-        for (std::uint32_t i = 0; i < count && !progress; ++i)
-        {
+        for (std::uint32_t i = 0; i < count && !progress; ++i) {
             if (done[i] || !ready(i))
                 continue;
             done[i] = progress = true; // and start again at the first: as declared, wherever that is possible
@@ -320,7 +316,8 @@ std::vector<std::uint32_t> order_passes(const Graph& graph)
 void throw_if_any(const std::vector<std::string>& problems)
 {
     if (!problems.empty())
-        throw std::logic_error(fmt::format("the render graph is declared wrongly:\n  {}", fmt::join(problems, "\n  ")));
+        throw std::logic_error(
+            fmt::format("the render graph is declared wrongly:\n  {}", fmt::join(problems, "\n  ")));
 }
 
 } // namespace engine

@@ -14,13 +14,16 @@ struct ImageAccess
     Usage usage;
 };
 
-/// Everything a pass does to images, in the order of its declaration: what it samples first, then what it writes.
+/// Everything a pass does to images, in the order of its
+/// declaration: what it samples first, then what it writes.
 std::vector<ImageAccess> accesses(const Pass& pass);
 
-/// Images, passes and bindings that cannot be right, one line each: "pass forward: samples lut, which nobody writes".
+/// Images, passes and bindings that cannot be right, one line
+/// each: "pass forward: samples lut, which nobody writes".
 std::vector<std::string> check_graph(const Graph& graph);
 
-/// Indices of the passes, every writer before its readers, otherwise as declared. Passes on a cycle are left out.
+/// Indices of the passes, every writer before its readers,
+/// otherwise as declared. Passes on a cycle are left out.
 std::vector<std::uint32_t> order_passes(const Graph& graph);
 
 /// Throws std::logic_error with all lines, or does nothing when there are none.

@@ -14,8 +14,7 @@ class Hash
   public:
     /// Fundamental types and enums only: a struct may have padding.
     template <typename T>
-        requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-    Hash& add(T value)
+    requires std::is_arithmetic_v<T> || std::is_enum_v<T> Hash& add(T value)
     {
         std::uint64_t word = 0;
         std::memcpy(&word, &value, sizeof value);
@@ -25,8 +24,7 @@ class Hash
     Hash& add(std::span<const std::byte> bytes)
     {
         mix(bytes.size()); // so that ("ab", "c") and ("a", "bc") differ
-        for (; bytes.size() >= 8; bytes = bytes.subspan(8))
-        {
+        for (; bytes.size() >= 8; bytes = bytes.subspan(8)) {
             std::uint64_t word = 0;
             std::memcpy(&word, bytes.data(), 8);
             mix(word);

@@ -15,10 +15,12 @@ namespace {
 
 VkDeviceMemory allocate(const Device& device, const VkMemoryRequirements& needs, std::uint32_t type)
 {
-    const VkMemoryAllocateInfo info{
-        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size, .memoryTypeIndex = type};
+    const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                    .allocationSize = needs.size,
+                                    .memoryTypeIndex = type};
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    check(vkAllocateMemory(device.handle(), &info, nullptr, &memory), fmt::format("allocate {} bytes", needs.size));
+    check(vkAllocateMemory(device.handle(), &info, nullptr, &memory),
+          fmt::format("allocate {} bytes", needs.size));
     return memory;
 }
 
@@ -32,7 +34,8 @@ bool transient(VkImageUsageFlags usage)
 
 } // namespace
 
-// ---- Buffer ------------------------------------------------------------------------------------------------------
+// ---- Buffer
+// ------------------------------------------------------------------------------------------------------
 
 Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, HostAccess host,
                const std::string& name)
@@ -46,12 +49,10 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
     VkMemoryRequirements needs{};
     vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
     VkMemoryPropertyFlags required = 0, preferred = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-    if (host == HostAccess::Write)
-    {
-        required = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT; // every device has it
-    }
-    else if (host == HostAccess::Read)
-    {
+    if (host == HostAccess::Write) {
+        required =
+            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT; // every device has it
+    } else if (host == HostAccess::Read) {
         required = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
         preferred = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
     }
@@ -60,7 +61,8 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
     memory = allocate(device, needs, type);
     check(vkBindBufferMemory(device.handle(), buffer, memory, 0), fmt::format("bind buffer {}", name));
     if (host != HostAccess::None)
-        check(vkMapMemory(device.handle(), memory, 0, VK_WHOLE_SIZE, 0, &pointer), fmt::format("map buffer {}", name));
+        check(vkMapMemory(device.handle(), memory, 0, VK_WHOLE_SIZE, 0, &pointer),
+              fmt::format("map buffer {}", name));
     device.name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer), name);
 }
 
@@ -72,7 +74,10 @@ Buffer::~Buffer()
     vkFreeMemory(owner->handle(), memory, nullptr);
 }
 
-Buffer::Buffer(Buffer&& other) noexcept { *this = std::move(other); }
+Buffer::Buffer(Buffer&& other) noexcept
+{
+    *this = std::move(other);
+}
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept
 {
@@ -95,7 +100,8 @@ void Buffer::invalidate() const
     check(vkInvalidateMappedMemoryRanges(owner->handle(), 1, &range), "read back a buffer");
 }
 
-// ---- Image -------------------------------------------------------------------------------------------------------
+// ---- Image
+// -------------------------------------------------------------------------------------------------------
 
 Image::Image(const Device& device, const ImageDesc& desc, std::uint32_t mip_levels, VkImageUsageFlags usage,
              const std::string& name)
@@ -108,20 +114,19 @@ Image::Image(const Device& device, const ImageDesc& desc, std::uint32_t mip_leve
     const std::uint32_t limit = device.limits().maxImageDimension2D;
     if (desc.width > limit || desc.height > limit)
         throw cicatrix::InputError(fmt::format("image {}", name),
-                                   fmt::format("{} x {} is more than device '{}' can do", desc.width, desc.height,
-                                               device.info().name),
+                                   fmt::format("{} x {} is more than device '{}' can do", desc.width,
+                                               desc.height, device.info().name),
                                    fmt::format("stay within {} x {}", limit, limit));
     const bool in_pass = transient(usage);
-    const VkImageCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
-        .imageType = VK_IMAGE_TYPE_2D,
-        .format = desc.format,
-        .extent = {desc.width, desc.height, 1},
-        .mipLevels = mip_levels,
-        .arrayLayers = 1,
-        .samples = static_cast<VkSampleCountFlagBits>(desc.samples),
-        .tiling = VK_IMAGE_TILING_OPTIMAL,
-        .usage = in_pass ? usage | VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT : usage};
+    const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                 .imageType = VK_IMAGE_TYPE_2D,
+                                 .format = desc.format,
+                                 .extent = {desc.width, desc.height, 1},
+                                 .mipLevels = mip_levels,
+                                 .arrayLayers = 1,
+                                 .samples = static_cast<VkSampleCountFlagBits>(desc.samples),
+                                 .tiling = VK_IMAGE_TILING_OPTIMAL,
+                                 .usage = in_pass ? usage | VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT : usage};
     check(vkCreateImage(device.handle(), &info, nullptr, &image), fmt::format("create image {}", name));
     VkMemoryRequirements needs{};
     vkGetImageMemoryRequirements(device.handle(), image, &needs);
@@ -134,7 +139,8 @@ Image::Image(const Device& device, const ImageDesc& desc, std::uint32_t mip_leve
                                           .viewType = VK_IMAGE_VIEW_TYPE_2D,
                                           .format = desc.format,
                                           .subresourceRange = range()};
-    check(vkCreateImageView(device.handle(), &view_info, nullptr, &image_view), fmt::format("view image {}", name));
+    check(vkCreateImageView(device.handle(), &view_info, nullptr, &image_view),
+          fmt::format("view image {}", name));
     device.name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image), name);
 }
 
@@ -147,7 +153,10 @@ Image::~Image()
     vkFreeMemory(owner->handle(), memory, nullptr);
 }
 
-Image::Image(Image&& other) noexcept { *this = std::move(other); }
+Image::Image(Image&& other) noexcept
+{
+    *this = std::move(other);
+}
 
 Image& Image::operator=(Image&& other) noexcept
 {
@@ -174,24 +183,22 @@ VkImageAspectFlags aspect_of(VkFormat format)
 Buffer upload_buffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
                      const std::string& name)
 {
-    const Buffer staging(device, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostAccess::Write, name + " staging");
+    const Buffer staging(device, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostAccess::Write,
+                         name + " staging");
     std::memcpy(staging.mapped().data(), bytes.data(), bytes.size());
     Buffer buffer(device, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostAccess::None, name);
-    device.run_once(
-        [&](VkCommandBuffer commands)
-        {
-            const VkBufferCopy region{.size = bytes.size()};
-            vkCmdCopyBuffer(commands, staging.handle(), buffer.handle(), 1, &region);
-            const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                           .srcStageMask = access_row(Usage::CopyDestination).stages,
-                                           .srcAccessMask = access_row(Usage::CopyDestination).access,
-                                           .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                           .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT};
-            const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                              .memoryBarrierCount = 1,
-                                              .pMemoryBarriers = &barrier};
-            vkCmdPipelineBarrier2(commands, &dependency);
-        });
+    device.run_once([&](VkCommandBuffer commands) {
+        const VkBufferCopy region{.size = bytes.size()};
+        vkCmdCopyBuffer(commands, staging.handle(), buffer.handle(), 1, &region);
+        const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                       .srcStageMask = access_row(Usage::CopyDestination).stages,
+                                       .srcAccessMask = access_row(Usage::CopyDestination).access,
+                                       .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                       .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT};
+        const VkDependencyInfo dependency{
+            .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
+        vkCmdPipelineBarrier2(commands, &dependency);
+    });
     return buffer;
 }
 

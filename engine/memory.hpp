@@ -1,5 +1,6 @@
-// Buffers and images with the memory behind them. Each has an allocation of its own: a renderer of a few dozen images
-// stays far below the 4096 allocations every device grants, and an allocator would be one more thing to get wrong.
+// Buffers and images with the memory behind them. Each has an allocation of its own: a renderer of a few
+// dozen images stays far below the 4096 allocations every device grants, and an allocator would be one more
+// thing to get wrong.
 #pragma once
 #include "engine/access.hpp"
 #include "engine/graph.hpp"
@@ -24,7 +25,8 @@ class Buffer
 {
   public:
     Buffer() = default;
-    Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, HostAccess host, const std::string& name);
+    Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, HostAccess host,
+           const std::string& name);
     ~Buffer();
     Buffer(Buffer&& other) noexcept;
     Buffer& operator=(Buffer&& other) noexcept;

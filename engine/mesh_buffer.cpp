@@ -8,14 +8,15 @@
 
 namespace engine {
 
-MeshBuffer::MeshBuffer(const Device& device, std::span<const Vertex> vertices, std::span<const std::uint32_t> indices,
-                       const std::string& name)
+MeshBuffer::MeshBuffer(const Device& device, std::span<const Vertex> vertices,
+                       std::span<const std::uint32_t> indices, const std::string& name)
     : count(static_cast<std::uint32_t>(indices.size())), content_id(new_content_id())
 {
     assert(!vertices.empty() && !indices.empty());
     vertex_buffer =
         upload_buffer(device, std::as_bytes(vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " vertices");
-    index_buffer = upload_buffer(device, std::as_bytes(indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
+    index_buffer =
+        upload_buffer(device, std::as_bytes(indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
 }
 
 const VertexAttribute* vertex_attribute(std::string_view name)

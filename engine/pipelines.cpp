@@ -14,8 +14,7 @@ namespace {
 std::uint32_t bit_pattern(const Constant& value)
 {
     return std::visit(
-        [](auto v) -> std::uint32_t
-        {
+        [](auto v) -> std::uint32_t {
             if constexpr (std::is_same_v<decltype(v), bool>)
                 return v ? VK_TRUE : VK_FALSE;
             else
@@ -42,11 +41,11 @@ struct Stage
         check(vkCreateShaderModule(device, &module_info, nullptr, &module),
               fmt::format("load shader {}", shader.name));
         for (const auto& [name, bits] : key.constants)
-            if (const ShaderConstant* constant = shader.interface.find_constant(name))
-            {
-                entries.push_back({.constantID = constant->id,
-                                   .offset = static_cast<std::uint32_t>(values.size() * sizeof(std::uint32_t)),
-                                   .size = sizeof(std::uint32_t)});
+            if (const ShaderConstant* constant = shader.interface.find_constant(name)) {
+                entries.push_back(
+                    {.constantID = constant->id,
+                     .offset = static_cast<std::uint32_t>(values.size() * sizeof(std::uint32_t)),
+                     .size = sizeof(std::uint32_t)});
                 values.push_back(bits);
             }
         specialisation = {.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
@@ -75,10 +74,9 @@ struct Stage
 std::vector<VkVertexInputAttributeDescription> attributes(const ShaderInterface& vertex_shader)
 {
     std::vector<VkVertexInputAttributeDescription> list;
-    for (const ShaderInput& input : vertex_shader.inputs)
-    {
-        constexpr std::array formats{VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R32G32B32_SFLOAT,
-                                     VK_FORMAT_R32G32B32A32_SFLOAT};
+    for (const ShaderInput& input : vertex_shader.inputs) {
+        constexpr std::array formats{VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT,
+                                     VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT};
         list.push_back({.location = input.location,
                         .binding = 0,
                         .format = formats[input.components - 1],
@@ -111,8 +109,7 @@ Pipelines::~Pipelines()
 {
     for (const auto& [key, pipeline] : pipelines)
         vkDestroyPipeline(device.handle(), pipeline.handle, nullptr);
-    for (const auto& [name, layout] : layouts)
-    {
+    for (const auto& [name, layout] : layouts) {
         vkDestroyPipelineLayout(device.handle(), layout.pipeline, nullptr);
         vkDestroyDescriptorSetLayout(device.handle(), layout.set, nullptr);
     }
@@ -137,13 +134,11 @@ const Pipeline& Pipelines::get(const Draw& draw, const RasterPass& pass, const G
                     .depth_test = pass.depth_image.valid() && draw.depth_test,
                     .depth_write = pass.depth_image.valid() && draw.depth_write};
     add_constants(key, library.group(draw.shader), BindingScope(draw, pass));
-    for (const RasterPass::ColorTarget& target : pass.colors)
-    {
+    for (const RasterPass::ColorTarget& target : pass.colors) {
         key.colors.push_back(graph.images[target.image.index].desc.format);
         key.samples = graph.images[target.image.index].desc.samples;
     }
-    if (pass.depth_image.valid())
-    {
+    if (pass.depth_image.valid()) {
         key.depth = graph.images[pass.depth_image.index].desc.format;
         key.samples = graph.images[pass.depth_image.index].desc.samples;
     }
@@ -175,19 +170,23 @@ const Pipelines::Layout& Pipelines::layout(const ShaderGroup& group)
                             .descriptorType = binding.type,
                             .descriptorCount = binding.count,
                             .stageFlags = binding.stages});
-    const VkDescriptorSetLayoutCreateInfo set_info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                                                   .bindingCount = static_cast<std::uint32_t>(bindings.size()),
-                                                   .pBindings = bindings.data()};
+    const VkDescriptorSetLayoutCreateInfo set_info{
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+        .bindingCount = static_cast<std::uint32_t>(bindings.size()),
+        .pBindings = bindings.data()};
     if (!made.set)
-        check(vkCreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &made.set), "create a set layout");
+        check(vkCreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &made.set),
+              "create a set layout");
     const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                           .setLayoutCount = 1,
                                           .pSetLayouts = &made.set};
-    check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &made.pipeline), "create a pipeline layout");
+    check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &made.pipeline),
+          "create a pipeline layout");
     return made;
 }
 
-VkPipeline Pipelines::make_compute(const PipelineKey& key, const ShaderGroup& group, VkPipelineLayout layout) const
+VkPipeline Pipelines::make_compute(const PipelineKey& key, const ShaderGroup& group,
+                                   VkPipelineLayout layout) const
 {
     const Stage stage(device.handle(), *group.stages.front(), key);
     const VkComputePipelineCreateInfo info{
@@ -198,9 +197,11 @@ VkPipeline Pipelines::make_compute(const PipelineKey& key, const ShaderGroup& gr
     return made;
 }
 
-VkPipeline Pipelines::make_raster(const PipelineKey& key, const ShaderGroup& group, VkPipelineLayout layout) const
+VkPipeline Pipelines::make_raster(const PipelineKey& key, const ShaderGroup& group,
+                                  VkPipelineLayout layout) const
 {
-    const Stage vertex(device.handle(), *group.stages[0], key), fragment(device.handle(), *group.stages[1], key);
+    const Stage vertex(device.handle(), *group.stages[0], key),
+        fragment(device.handle(), *group.stages[1], key);
     const std::array stages{vertex.info, fragment.info};
     const auto inputs = attributes(group.stages[0]->interface);
     const VkVertexInputBindingDescription vertices{
@@ -214,13 +215,15 @@ VkPipeline Pipelines::make_raster(const PipelineKey& key, const ShaderGroup& gro
     const VkPipelineInputAssemblyStateCreateInfo assembly{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
         .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
-    const VkPipelineViewportStateCreateInfo viewport{.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
-                                                     .viewportCount = 1,
-                                                     .scissorCount = 1};
+    const VkPipelineViewportStateCreateInfo viewport{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+        .viewportCount = 1,
+        .scissorCount = 1};
     const VkPipelineRasterizationStateCreateInfo rasterisation{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
         .polygonMode = VK_POLYGON_MODE_FILL,
-        .cullMode = static_cast<VkCullModeFlags>(key.cull_back_faces ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
+        .cullMode =
+            static_cast<VkCullModeFlags>(key.cull_back_faces ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
         .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
         .lineWidth = 1.0f};
     const VkPipelineMultisampleStateCreateInfo multisample{
@@ -232,11 +235,13 @@ VkPipeline Pipelines::make_raster(const PipelineKey& key, const ShaderGroup& gro
         .depthWriteEnable = key.depth_write,
         .depthCompareOp = VK_COMPARE_OP_LESS_OR_EQUAL};
     const std::vector<VkPipelineColorBlendAttachmentState> blends(key.colors.size(), blend_state(key.blend));
-    const VkPipelineColorBlendStateCreateInfo blend{.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-                                                    .attachmentCount = static_cast<std::uint32_t>(blends.size()),
-                                                    .pAttachments = blends.data()};
+    const VkPipelineColorBlendStateCreateInfo blend{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+        .attachmentCount = static_cast<std::uint32_t>(blends.size()),
+        .pAttachments = blends.data()};
     constexpr std::array dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    const VkPipelineDynamicStateCreateInfo dynamic{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+    const VkPipelineDynamicStateCreateInfo dynamic{.sType =
+                                                       VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
                                                    .dynamicStateCount = dynamic_states.size(),
                                                    .pDynamicStates = dynamic_states.data()};
     const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
@@ -275,22 +280,23 @@ void Pipelines::make_samplers()
     constexpr std::array<Kind, 4> kinds{{
         {Sampler::LinearClamp, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, 0.0f},
         {Sampler::LinearRepeatMips, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_LOD_CLAMP_NONE},
-        {Sampler::LinearClampMips, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_LOD_CLAMP_NONE},
+        {Sampler::LinearClampMips, VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+         VK_LOD_CLAMP_NONE},
         {Sampler::NearestClamp, VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, 0.0f},
     }};
-    for (const Kind& kind : kinds)
-    {
+    for (const Kind& kind : kinds) {
         const bool mips = kind.max_lod > 0.0f;
         const VkSamplerCreateInfo info{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
                                        .magFilter = kind.filter,
                                        .minFilter = kind.filter,
-                                       .mipmapMode =
-                                           mips ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST,
+                                       .mipmapMode = mips ? VK_SAMPLER_MIPMAP_MODE_LINEAR
+                                                          : VK_SAMPLER_MIPMAP_MODE_NEAREST,
                                        .addressModeU = kind.address,
                                        .addressModeV = kind.address,
                                        .addressModeW = kind.address,
                                        .maxLod = kind.max_lod};
-        check(vkCreateSampler(device.handle(), &info, nullptr, &samplers[static_cast<std::size_t>(kind.sampler)]),
+        check(vkCreateSampler(device.handle(), &info, nullptr,
+                              &samplers[static_cast<std::size_t>(kind.sampler)]),
               "create a sampler");
     }
 }

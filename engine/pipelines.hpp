@@ -18,7 +18,7 @@ class Device;
 /// Everything a pipeline is compiled for.
 struct PipelineKey
 {
-    std::string shader;                                        // name of the shader group
+    std::string shader;                                           // name of the shader group
     std::vector<std::pair<std::string, std::uint32_t>> constants; // by name, as bit patterns
     std::vector<VkFormat> colors;
     VkFormat depth = VK_FORMAT_UNDEFINED;

@@ -13,8 +13,7 @@ namespace {
 
 const char* layout_name(VkImageLayout layout)
 {
-    switch (layout)
-    {
+    switch (layout) {
     case VK_IMAGE_LAYOUT_GENERAL:
         return "general";
     case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL:
@@ -44,7 +43,7 @@ std::string stage_names(VkPipelineStageFlags2 stages)
         {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, "colour output"},
         {VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT, "early depth"},
         {VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT, "late depth"},
-        {VK_PIPELINE_STAGE_2_COPY_BIT, "copy"},
+        {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, "copy"},
     }};
     std::vector<const char*> list;
     for (const Stage& stage : names)
@@ -56,8 +55,9 @@ std::string stage_names(VkPipelineStageFlags2 stages)
 std::string barrier_text(const Graph& graph, const ImageBarrier& entry)
 {
     const Barrier& b = entry.barrier;
-    return fmt::format("{}: {} -> {}, {} -> {}", graph.images[entry.image.index].name, stage_names(b.src_stages),
-                       stage_names(b.dst_stages), layout_name(b.old_layout), layout_name(b.new_layout));
+    return fmt::format("{}: {} -> {}, {} -> {}", graph.images[entry.image.index].name,
+                       stage_names(b.src_stages), stage_names(b.dst_stages), layout_name(b.old_layout),
+                       layout_name(b.new_layout));
 }
 
 std::string desc_text(const ImageDesc& desc)
@@ -81,8 +81,7 @@ std::vector<std::string> touched_names(const Graph& graph, const Pass& pass, boo
 std::string quoted(std::string_view text)
 {
     std::string result = "\"";
-    for (const char c : text)
-    {
+    for (const char c : text) {
         if (c == '"' || c == '\\')
             result += '\\';
         result += c;
@@ -95,8 +94,7 @@ std::string quoted(std::string_view text)
 std::string plan_text(const Graph& graph, const Plan& plan)
 {
     std::string text = "passes, in order of execution\n";
-    for (const PassPlan& planned : plan.passes)
-    {
+    for (const PassPlan& planned : plan.passes) {
         const Pass& pass = graph.passes[planned.pass];
         text += fmt::format("  {:<24} {:<8} {}\n", planned.name, name_of(planned.state), planned.reason);
         if (const auto reads = touched_names(graph, pass, false); !reads.empty())
@@ -108,13 +106,13 @@ std::string plan_text(const Graph& graph, const Plan& plan)
     for (const ImageBarrier& barrier : plan.final_barriers)
         text += fmt::format("  at the end: barrier  {}\n", barrier_text(graph, barrier));
     text += "images\n";
-    for (std::size_t i = 0; i < graph.images.size(); ++i)
-    {
+    for (std::size_t i = 0; i < graph.images.size(); ++i) {
         const Graph::Image& image = graph.images[i];
         const ImagePlan& planned = plan.images[i];
         std::string life = "not needed in this frame";
         if (planned.first != ~0u)
-            life = fmt::format("from {} to {}", plan.passes[planned.first].name, plan.passes[planned.last].name);
+            life =
+                fmt::format("from {} to {}", plan.passes[planned.first].name, plan.passes[planned.last].name);
         if (image.external)
             life = "imported, " + life;
         else if (planned.first != ~0u && !planned.needed)
@@ -127,8 +125,7 @@ std::string plan_text(const Graph& graph, const Plan& plan)
 std::string plan_dot(const Graph& graph, const Plan& plan)
 {
     std::string text = "digraph frame {\n  rankdir=LR;\n  node [fontname=\"sans-serif\"];\n";
-    for (const PassPlan& planned : plan.passes)
-    {
+    for (const PassPlan& planned : plan.passes) {
         const char* style = planned.state == PassState::Run       ? "filled"
                             : planned.state == PassState::Skipped ? "dashed"
                                                                   : "dotted";
@@ -137,15 +134,14 @@ std::string plan_dot(const Graph& graph, const Plan& plan)
     }
     for (const Graph::Image& image : graph.images)
         text += fmt::format("  {} [shape=ellipse{}, label={}];\n", quoted("image " + image.name),
-                            image.external ? ", style=bold" : "", quoted(image.name + "\n" + desc_text(image.desc)));
-    for (const PassPlan& planned : plan.passes)
-    {
+                            image.external ? ", style=bold" : "",
+                            quoted(image.name + "\n" + desc_text(image.desc)));
+    for (const PassPlan& planned : plan.passes) {
         std::set<std::uint32_t> waiting;
         for (const ImageBarrier& barrier : planned.barriers)
             waiting.insert(barrier.image.index);
         std::set<std::pair<std::uint32_t, bool>> drawn;
-        for (const ImageAccess& access : accesses(graph.passes[planned.pass]))
-        {
+        for (const ImageAccess& access : accesses(graph.passes[planned.pass])) {
             const bool writes = access_row(access.usage).writes;
             if (!drawn.emplace(access.image.index, writes).second)
                 continue;

@@ -6,7 +6,8 @@
 
 namespace engine {
 
-/// Passes in order with what they read and write, their state and why, barriers; then images with size, format, lifetime.
+/// Passes in order with what they read and write, their state
+/// and why, barriers; then images with size, format, lifetime.
 std::string plan_text(const Graph& graph, const Plan& plan);
 
 /// For `dot -Tsvg`: boxes are passes (dashed: skipped, dotted: culled), ellipses images.

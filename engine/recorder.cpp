@@ -7,8 +7,8 @@
 
 namespace engine {
 
-Recorder::Recorder(const Device& used, const Graph& declared, Pipelines& made, FrameSlot& frame, VkCommandBuffer to,
-                   std::span<const BoundImage> bound)
+Recorder::Recorder(const Device& used, const Graph& declared, Pipelines& made, FrameSlot& frame,
+                   VkCommandBuffer to, std::span<const BoundImage> bound)
     : device(used), graph(declared), pipelines(made), slot(frame), commands(to), images(bound)
 {
 }
@@ -17,21 +17,23 @@ void Recorder::barriers(std::span<const ImageBarrier> list) const
 {
     std::vector<VkImageMemoryBarrier2> image_barriers;
     for (const auto& [id, barrier] : list)
-        image_barriers.push_back({.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                  .srcStageMask = barrier.src_stages,
-                                  .srcAccessMask = barrier.src_access,
-                                  .dstStageMask = barrier.dst_stages,
-                                  .dstAccessMask = barrier.dst_access,
-                                  .oldLayout = barrier.old_layout,
-                                  .newLayout = barrier.new_layout,
-                                  .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                  .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                  .image = images[id.index].image,
-                                  .subresourceRange = {.aspectMask = aspect_of(graph.images[id.index].desc.format),
-                                                       .levelCount = 1,
-                                                       .layerCount = 1}});
+        image_barriers.push_back(
+            {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+             .srcStageMask = barrier.src_stages,
+             .srcAccessMask = barrier.src_access,
+             .dstStageMask = barrier.dst_stages,
+             .dstAccessMask = barrier.dst_access,
+             .oldLayout = barrier.old_layout,
+             .newLayout = barrier.new_layout,
+             .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+             .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+             .image = images[id.index].image,
+             .subresourceRange = {.aspectMask = aspect_of(graph.images[id.index].desc.format),
+                                  .levelCount = 1,
+                                  .layerCount = 1}});
     const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                      .imageMemoryBarrierCount = static_cast<std::uint32_t>(image_barriers.size()),
+                                      .imageMemoryBarrierCount =
+                                          static_cast<std::uint32_t>(image_barriers.size()),
                                       .pImageMemoryBarriers = image_barriers.data()};
     if (!image_barriers.empty())
         vkCmdPipelineBarrier2(commands, &dependency);
@@ -42,9 +44,11 @@ void Recorder::record(const ComputePass& pass)
     const Pipeline& pipeline = pipelines.get(pass);
     const VkDescriptorSet set = write_set(pipeline, BindingScope(pass));
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set, 0, nullptr);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set, 0,
+                            nullptr);
     const auto& local = pipeline.group->stages.front()->interface.local_size;
-    vkCmdDispatch(commands, (pass.width + local[0] - 1) / local[0], (pass.height + local[1] - 1) / local[1], 1);
+    vkCmdDispatch(commands, (pass.width + local[0] - 1) / local[0], (pass.height + local[1] - 1) / local[1],
+                  1);
 }
 
 void Recorder::record(const RasterPass& pass, const PassPlan& planned)
@@ -52,9 +56,8 @@ void Recorder::record(const RasterPass& pass, const PassPlan& planned)
     const ImageId first = pass.colors.empty() ? pass.depth_image : pass.colors.front().image;
     const ImageDesc& desc = graph.images[first.index].desc;
     const VkExtent2D extent{desc.width, desc.height};
-    const VkViewport viewport{.width = static_cast<float>(desc.width),
-                              .height = static_cast<float>(desc.height),
-                              .maxDepth = 1.0f};
+    const VkViewport viewport{
+        .width = static_cast<float>(desc.width), .height = static_cast<float>(desc.height), .maxDepth = 1.0f};
     const VkRect2D scissor{.extent = extent};
     begin_rendering(pass, planned, extent);
     vkCmdSetViewport(commands, 0, 1, &viewport);
@@ -67,8 +70,7 @@ void Recorder::record(const RasterPass& pass, const PassPlan& planned)
 void Recorder::begin_rendering(const RasterPass& pass, const PassPlan& planned, VkExtent2D extent) const
 {
     std::vector<VkRenderingAttachmentInfo> colors;
-    for (std::size_t i = 0; i < pass.colors.size(); ++i)
-    {
+    for (std::size_t i = 0; i < pass.colors.size(); ++i) {
         const RasterPass::ColorTarget& target = pass.colors[i];
         VkRenderingAttachmentInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                        .imageView = images[target.image.index].view,
@@ -76,8 +78,7 @@ void Recorder::begin_rendering(const RasterPass& pass, const PassPlan& planned, 
                                        .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
                                        .storeOp = planned.color_stores[i]};
         std::copy(target.clear.begin(), target.clear.end(), info.clearValue.color.float32);
-        if (target.resolve.valid())
-        {
+        if (target.resolve.valid()) {
             info.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
             info.resolveImageView = images[target.resolve.index].view;
             info.resolveImageLayout = access_row(Usage::Color).layout;
@@ -105,9 +106,9 @@ void Recorder::record_draw(const Draw& draw, const RasterPass& pass)
     const Pipeline& pipeline = pipelines.get(draw, pass, graph);
     const VkDescriptorSet set = write_set(pipeline, BindingScope(draw, pass));
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0, 1, &set, 0, nullptr);
-    if (!draw.mesh)
-    {
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0, 1, &set, 0,
+                            nullptr);
+    if (!draw.mesh) {
         vkCmdDraw(commands, draw.index_count, 1, draw.first_index, 0);
         return;
     }
@@ -115,7 +116,8 @@ void Recorder::record_draw(const Draw& draw, const RasterPass& pass)
     constexpr VkDeviceSize offset = 0;
     vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &offset);
     vkCmdBindIndexBuffer(commands, draw.mesh->indices(), 0, VK_INDEX_TYPE_UINT32);
-    const std::uint32_t count = draw.index_count ? draw.index_count : draw.mesh->index_count() - draw.first_index;
+    const std::uint32_t count =
+        draw.index_count ? draw.index_count : draw.mesh->index_count() - draw.first_index;
     vkCmdDrawIndexed(commands, count, 1, draw.first_index, 0, 0);
 }
 
@@ -125,34 +127,30 @@ VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, const BindingScope
     std::deque<VkDescriptorBufferInfo> buffers; // deques: pointers into them must stay valid
     std::deque<std::vector<VkDescriptorImageInfo>> image_lists;
     std::vector<VkWriteDescriptorSet> writes;
-    for (const ShaderGroup::Binding& binding : pipeline.group->bindings)
-    {
+    for (const ShaderGroup::Binding& binding : pipeline.group->bindings) {
         VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                    .dstSet = set,
                                    .dstBinding = binding.binding,
                                    .descriptorCount = binding.count,
                                    .descriptorType = binding.type};
-        if (binding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)
-        {
+        if (binding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER) {
             const Bindings::Sampled& sampled = *scope.sampled(binding.name);
             auto& list = image_lists.emplace_back();
             for (const ImageId id : sampled.images)
                 list.push_back({pipelines.sampler(sampled.sampler), images[id.index].view,
                                 access_row(Usage::SampledInRaster).layout});
             write.pImageInfo = list.data();
-        }
-        else if (binding.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE)
-        {
+        } else if (binding.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE) {
             const ImageId id = scope.stored(binding.name)->image;
             auto& list = image_lists.emplace_back();
             list.push_back({VK_NULL_HANDLE, images[id.index].view, access_row(Usage::Stored).layout});
             write.pImageInfo = list.data();
-        }
-        else
+        } else
             write.pBufferInfo = &buffers.emplace_back(upload(binding, *scope.data(binding.name)));
         writes.push_back(write);
     }
-    vkUpdateDescriptorSets(device.handle(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
+    vkUpdateDescriptorSets(device.handle(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0,
+                           nullptr);
     return set;
 }
 
@@ -171,15 +169,15 @@ VkDescriptorBufferInfo Recorder::upload(const ShaderGroup::Binding& binding, con
 void Recorder::copy_out(std::span<const Graph::Readback> readbacks, const Buffer& to,
                         std::span<const VkDeviceSize> offsets) const
 {
-    for (std::size_t i = 0; i < readbacks.size(); ++i)
-    {
+    for (std::size_t i = 0; i < readbacks.size(); ++i) {
         const ImageId id = readbacks[i].image;
         const ImageDesc& desc = graph.images[id.index].desc;
-        const VkBufferImageCopy region{.bufferOffset = offsets[i],
-                                       .imageSubresource = {.aspectMask = aspect_of(desc.format), .layerCount = 1},
-                                       .imageExtent = {desc.width, desc.height, 1}};
-        vkCmdCopyImageToBuffer(commands, images[id.index].image, access_row(Usage::CopySource).layout, to.handle(), 1,
-                               &region);
+        const VkBufferImageCopy region{
+            .bufferOffset = offsets[i],
+            .imageSubresource = {.aspectMask = aspect_of(desc.format), .layerCount = 1},
+            .imageExtent = {desc.width, desc.height, 1}};
+        vkCmdCopyImageToBuffer(commands, images[id.index].image, access_row(Usage::CopySource).layout,
+                               to.handle(), 1, &region);
     }
     const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                    .srcStageMask = access_row(Usage::CopyDestination).stages,

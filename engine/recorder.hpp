@@ -20,8 +20,8 @@ struct BoundImage
 class Recorder
 {
   public:
-    Recorder(const Device& device, const Graph& graph, Pipelines& pipelines, FrameSlot& slot, VkCommandBuffer commands,
-             std::span<const BoundImage> images);
+    Recorder(const Device& device, const Graph& graph, Pipelines& pipelines, FrameSlot& slot,
+             VkCommandBuffer commands, std::span<const BoundImage> images);
 
     void barriers(std::span<const ImageBarrier> barriers) const;
     void record(const ComputePass& pass);

@@ -13,15 +13,15 @@ namespace {
 
 void add_bindings(std::vector<KeyPart>& key, const std::string& prefix, const Bindings& bindings)
 {
-    for (const auto& [name, value] : bindings.constants)
-    {
+    for (const auto& [name, value] : bindings.constants) {
         Hash hash;
         hash.add(value.index());
         std::visit([&](auto v) { hash.add(v); }, value);
         key.push_back({prefix + "constant " + name, hash.value()});
     }
     for (const Bindings::Data& data : bindings.data)
-        key.push_back({prefix + (data.storage ? "buffer " : "uniform ") + data.name, Hash().add(data.bytes).value()});
+        key.push_back(
+            {prefix + (data.storage ? "buffer " : "uniform ") + data.name, Hash().add(data.bytes).value()});
     for (const Bindings::Stored& stored : bindings.stored)
         key.push_back({prefix + "stored " + stored.name, Hash().add(stored.image.index).value()});
 }
@@ -29,7 +29,10 @@ void add_bindings(std::vector<KeyPart>& key, const std::string& prefix, const Bi
 void add_draw(std::vector<KeyPart>& key, const std::string& prefix, const Draw& draw)
 {
     Hash hash;
-    hash.add(draw.shader).add(draw.mesh ? draw.mesh->content() : 0).add(draw.first_index).add(draw.index_count);
+    hash.add(draw.shader)
+        .add(draw.mesh ? draw.mesh->content() : 0)
+        .add(draw.first_index)
+        .add(draw.index_count);
     hash.add(draw.cull_back_faces).add(draw.blend).add(draw.depth_test).add(draw.depth_write);
     key.push_back({prefix + "draw", hash.value()});
     add_bindings(key, prefix, draw);
@@ -39,8 +42,7 @@ void add_draw(std::vector<KeyPart>& key, const std::string& prefix, const Draw& 
 std::vector<KeyPart> declared_key(const Pass& pass)
 {
     std::vector<KeyPart> key;
-    if (const auto* compute = std::get_if<ComputePass>(&pass))
-    {
+    if (const auto* compute = std::get_if<ComputePass>(&pass)) {
         key.push_back({"shader", Hash().add(compute->shader).value()});
         key.push_back({"dispatch", Hash().add(compute->width).add(compute->height).value()});
         add_bindings(key, "", *compute);
@@ -48,8 +50,7 @@ std::vector<KeyPart> declared_key(const Pass& pass)
     }
     const auto& raster = std::get<RasterPass>(pass);
     Hash targets;
-    for (const RasterPass::ColorTarget& target : raster.colors)
-    {
+    for (const RasterPass::ColorTarget& target : raster.colors) {
         targets.add(target.resolve.valid());
         for (const float channel : target.clear)
             targets.add(channel);
@@ -66,7 +67,8 @@ class Scheduler
 {
   public:
     Scheduler(const Graph& scheduled, const Memory& remembered)
-        : graph(scheduled), before(remembered), states(scheduled.images.size()), stamps(scheduled.images.size())
+        : graph(scheduled), before(remembered), states(scheduled.images.size()),
+          stamps(scheduled.images.size())
     {
     }
 
@@ -97,19 +99,18 @@ class Scheduler
             need(readback.image);
         for (const ImageId id : graph.presented)
             need(id);
-        for (std::size_t i = plan.passes.size(); i-- > 0;)
-        {
+        for (std::size_t i = plan.passes.size(); i-- > 0;) {
             PassPlan& pass = plan.passes[i];
-            const bool needed = std::any_of(touched[i].begin(), touched[i].end(), [&](const ImageAccess& access)
-                                            { return writes(access) && plan.images[access.image.index].needed; });
-            for (const ImageAccess& access : touched[i])
-            {
+            const bool needed =
+                std::any_of(touched[i].begin(), touched[i].end(), [&](const ImageAccess& access) {
+                    return writes(access) && plan.images[access.image.index].needed;
+                });
+            for (const ImageAccess& access : touched[i]) {
                 plan.images[access.image.index].usage |= access_row(access.usage).image;
                 if (needed && !writes(access))
                     plan.images[access.image.index].needed = true;
             }
-            if (!needed)
-            {
+            if (!needed) {
                 pass.state = PassState::Culled;
                 pass.reason = why_culled(i);
             }
@@ -136,8 +137,7 @@ class Scheduler
     /// What is known about the images' contents; an image that must be made anew has none.
     void recall_images()
     {
-        for (std::size_t i = 0; i < graph.images.size(); ++i)
-        {
+        for (std::size_t i = 0; i < graph.images.size(); ++i) {
             const Graph::Image& image = graph.images[i];
             const auto remembered = before.images.find(image.name);
             if (remembered != before.images.end() && remembered->second.desc == image.desc &&
@@ -153,14 +153,12 @@ class Scheduler
     void plan_pass(std::uint32_t position)
     {
         PassPlan& planned = plan.passes[position];
-        if (planned.state == PassState::Culled)
-        {
+        if (planned.state == PassState::Culled) {
             if (const auto key = before.passes.find(planned.name); key != before.passes.end())
                 plan.memory.passes.insert(*key);
             return;
         }
-        for (const ImageAccess& access : touched[position])
-        {
+        for (const ImageAccess& access : touched[position]) {
             ImagePlan& image = plan.images[access.image.index];
             image.first = std::min(image.first, position);
             image.last = position;
@@ -168,13 +166,10 @@ class Scheduler
         std::vector<KeyPart> key = full_key(position);
         const bool always = std::visit([](const auto& p) { return p.always; }, graph.passes[planned.pass]);
         const std::string lost = stamp_outputs(position, key, always);
-        if (lost.empty())
-        {
+        if (lost.empty()) {
             planned.state = PassState::Skipped;
             planned.reason = "unchanged";
-        }
-        else
-        {
+        } else {
             planned.reason = always ? "every frame" : why_run(planned.name, key, lost);
             place(position);
         }
@@ -184,12 +179,12 @@ class Scheduler
     std::vector<KeyPart> full_key(std::uint32_t position) const
     {
         std::vector<KeyPart> key = declared_key(graph.passes[plan.passes[position].pass]);
-        for (const ImageAccess& access : touched[position])
-        {
+        for (const ImageAccess& access : touched[position]) {
             const ImageDesc& desc = graph.images[access.image.index].desc;
             if (writes(access))
-                key.push_back({"size of " + image_name(access.image),
-                               Hash().add(desc.width).add(desc.height).add(desc.format).add(desc.samples).value()});
+                key.push_back(
+                    {"size of " + image_name(access.image),
+                     Hash().add(desc.width).add(desc.height).add(desc.format).add(desc.samples).value()});
             else
                 key.push_back({"input " + image_name(access.image), stamps[access.image.index]});
         }
@@ -201,25 +196,22 @@ class Scheduler
     static void add_samplers(std::vector<KeyPart>& key, const Pass& pass)
     {
         Hash hash;
-        const auto add = [&](const Bindings& bindings)
-        {
-            for (const Bindings::Sampled& sampled : bindings.sampled)
-            {
+        const auto add = [&](const Bindings& bindings) {
+            for (const Bindings::Sampled& sampled : bindings.sampled) {
                 hash.add(sampled.name).add(sampled.sampler).add(sampled.images.size());
             }
         };
-        if (const auto* raster = std::get_if<RasterPass>(&pass))
-        {
+        if (const auto* raster = std::get_if<RasterPass>(&pass)) {
             add(*raster);
             for (const Draw& draw : raster->draws)
                 add(draw);
-        }
-        else
+        } else
             add(std::get<ComputePass>(pass));
         key.push_back({"samplers", hash.value()});
     }
 
-    /// Gives every output its stamp and returns the first needed one that does not hold it already; empty: all do.
+    /// Gives every output its stamp and returns the first
+    /// needed one that does not hold it already; empty: all do.
     std::string stamp_outputs(std::uint32_t position, const std::vector<KeyPart>& key, bool always)
     {
         Hash hash;
@@ -228,8 +220,7 @@ class Scheduler
         if (always)
             hash.add(plan.memory.frames); // never the same again
         std::string lost;
-        for (const ImageAccess& access : touched[position])
-        {
+        for (const ImageAccess& access : touched[position]) {
             if (!writes(access))
                 continue;
             const std::uint32_t image = access.image.index;
@@ -240,7 +231,8 @@ class Scheduler
         return lost;
     }
 
-    std::string why_run(const std::string& pass, const std::vector<KeyPart>& key, const std::string& lost) const
+    std::string why_run(const std::string& pass, const std::vector<KeyPart>& key,
+                        const std::string& lost) const
     {
         const auto last = before.passes.find(pass);
         if (last == before.passes.end())
@@ -257,8 +249,7 @@ class Scheduler
     void place(std::uint32_t position)
     {
         PassPlan& planned = plan.passes[position];
-        for (const ImageAccess& access : touched[position])
-        {
+        for (const ImageAccess& access : touched[position]) {
             const std::uint32_t image = access.image.index;
             if (graph.images[image].external)
                 continue; // always ready to be sampled
@@ -267,15 +258,12 @@ class Scheduler
             if (writes(access))
                 states[image].stamp = plan.images[image].needed ? stamps[image] : 0;
         }
-        const auto store = [&](ImageId id)
-        {
+        const auto store = [&](ImageId id) {
             return id.valid() && plan.images[id.index].needed ? VK_ATTACHMENT_STORE_OP_STORE
                                                               : VK_ATTACHMENT_STORE_OP_DONT_CARE;
         };
-        if (const auto* raster = std::get_if<RasterPass>(&graph.passes[planned.pass]))
-        {
-            for (const RasterPass::ColorTarget& target : raster->colors)
-            {
+        if (const auto* raster = std::get_if<RasterPass>(&graph.passes[planned.pass])) {
+            for (const RasterPass::ColorTarget& target : raster->colors) {
                 planned.color_stores.push_back(store(target.image));
                 planned.resolve_stores.push_back(store(target.resolve));
             }
@@ -301,7 +289,7 @@ class Scheduler
     Plan plan;
     std::vector<std::vector<ImageAccess>> touched; // by position in plan.passes
     std::vector<ImageState> states;                // by image
-    std::vector<std::uint64_t> stamps;             // by image: what it holds once its writer has run or been skipped
+    std::vector<std::uint64_t> stamps; // by image: what it holds once its writer has run or been skipped
 };
 
 } // namespace
@@ -314,8 +302,7 @@ Plan schedule(const Graph& graph, const Memory& memory)
 
 const char* name_of(PassState state)
 {
-    switch (state)
-    {
+    switch (state) {
     case PassState::Run:
         return "ran";
     case PassState::Skipped:

@@ -1,5 +1,5 @@
-// From a declared frame to what has to be done for it: order, what runs, what is skipped or culled and why, barriers,
-// lifetimes. A pure function: no Vulkan call is made, so its tests need no device.
+// From a declared frame to what has to be done for it: order, what runs, what is skipped or culled and why,
+// barriers, lifetimes. A pure function: no Vulkan call is made, so its tests need no device.
 //
 // Contents are told apart by stamps. The stamp of an image is a hash of its writer's key and of the stamps of
 // everything the writer samples; a pass whose needed outputs already hold their stamps is skipped.
@@ -55,8 +55,9 @@ struct PassPlan
     std::uint32_t pass = 0; // index in Graph::passes
     std::string name;
     PassState state = PassState::Run;
-    std::string reason; // "unchanged", "unused: nothing samples lut", "changed: uniform day", "first run", "every frame"
-    std::vector<ImageBarrier> barriers; // before the pass
+    std::string reason; // "unchanged", "unused: nothing samples lut", "changed: uniform day", "first run",
+                        // "every frame"
+    std::vector<ImageBarrier> barriers;                            // before the pass
     std::vector<VkAttachmentStoreOp> color_stores, resolve_stores; // by colour target
     VkAttachmentStoreOp depth_store = VK_ATTACHMENT_STORE_OP_DONT_CARE;
 };
@@ -64,16 +65,17 @@ struct PassPlan
 struct ImagePlan
 {
     VkImageUsageFlags usage = 0; // all that the graph declares, culled passes included
-    std::uint32_t first = ~0u, last = ~0u; // in Plan::passes, culled ones left out; ~0: not needed in this frame
-    bool needed = false; // its contents are read by a pass that is not culled, read back or presented
+    std::uint32_t first = ~0u,
+                  last = ~0u; // in Plan::passes, culled ones left out; ~0: not needed in this frame
+    bool needed = false;      // its contents are read by a pass that is not culled, read back or presented
 };
 
 struct Plan
 {
-    std::vector<PassPlan> passes;              // in order of execution
-    std::vector<ImagePlan> images;             // by ImageId
-    std::vector<ImageBarrier> final_barriers;  // before the read-backs
-    Memory memory;                             // to be given to the next frame
+    std::vector<PassPlan> passes;             // in order of execution
+    std::vector<ImagePlan> images;            // by ImageId
+    std::vector<ImageBarrier> final_barriers; // before the read-backs
+    Memory memory;                            // to be given to the next frame
 };
 
 /// Throws std::logic_error when the declaration is wrong; see graph_check.hpp.

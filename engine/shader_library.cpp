@@ -1,5 +1,7 @@
 #include "engine/shader_library.hpp"
 
+#include "engine/find_named.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -9,27 +11,25 @@ namespace {
 
 void merge_bindings(ShaderGroup& group, const Shader& shader)
 {
-    for (const ShaderBinding& binding : shader.interface.bindings)
-    {
-        const auto same = std::find_if(group.bindings.begin(), group.bindings.end(),
-                                       [&](const ShaderGroup::Binding& b) { return b.binding == binding.binding; });
-        if (same == group.bindings.end())
-        {
+    for (const ShaderBinding& binding : shader.interface.bindings) {
+        const auto same =
+            std::find_if(group.bindings.begin(), group.bindings.end(),
+                         [&](const ShaderGroup::Binding& b) { return b.binding == binding.binding; });
+        if (same == group.bindings.end()) {
             group.bindings.push_back({{binding}, static_cast<VkShaderStageFlags>(shader.interface.stage)});
             continue;
         }
         same->stages |= shader.interface.stage;
         if (same->name != binding.name || same->type != binding.type || same->count != binding.count ||
             same->size != binding.size)
-            group.problems.push_back(fmt::format("binding {} is {} in one stage and {} in {}", binding.binding,
-                                                 same->name, binding.name, shader.name));
+            group.problems.push_back(fmt::format("binding {} is {} in one stage and {} in {}",
+                                                 binding.binding, same->name, binding.name, shader.name));
     }
 }
 
 void merge_constants(ShaderGroup& group, const Shader& shader)
 {
-    for (const ShaderConstant& constant : shader.interface.constants)
-    {
+    for (const ShaderConstant& constant : shader.interface.constants) {
         const ShaderConstant* same = group.find_constant(constant.name);
         if (!same)
             group.constants.push_back(constant);
@@ -42,19 +42,18 @@ void merge_constants(ShaderGroup& group, const Shader& shader)
 
 const ShaderGroup::Binding* ShaderGroup::find_binding(std::string_view binding) const
 {
-    const auto found =
-        std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == binding; });
-    return found == bindings.end() ? nullptr : &*found;
+    return find_named(bindings, binding);
 }
 
 const ShaderConstant* ShaderGroup::find_constant(std::string_view constant) const
 {
-    const auto found =
-        std::find_if(constants.begin(), constants.end(), [&](const ShaderConstant& c) { return c.name == constant; });
-    return found == constants.end() ? nullptr : &*found;
+    return find_named(constants, constant);
 }
 
-ShaderLibrary::ShaderLibrary(std::span<const EmbeddedShader> shaders) { add(shaders); }
+ShaderLibrary::ShaderLibrary(std::span<const EmbeddedShader> shaders)
+{
+    add(shaders);
+}
 
 void ShaderLibrary::add(std::span<const EmbeddedShader> shaders)
 {
@@ -82,11 +81,9 @@ const ShaderGroup& ShaderLibrary::group(std::string_view name) const
     std::vector<std::string> files{group->name};
     if (!name.ends_with(".comp"))
         files = {group->name + ".vert", group->name + ".frag"};
-    for (const std::string& file : files)
-    {
+    for (const std::string& file : files) {
         const Shader* shader = find(file);
-        if (!shader)
-        {
+        if (!shader) {
             group->problems.push_back(fmt::format("there is no shader {}", file));
             continue;
         }

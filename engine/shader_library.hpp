@@ -46,7 +46,8 @@ class ShaderLibrary
     /// Null when there is no such shader. "forward.frag"
     const Shader* find(std::string_view name) const;
 
-    /// "wound_texture.comp" is that compute shader, "forward" is forward.vert with forward.frag. Problems are in the group.
+    /// "wound_texture.comp" is that compute shader, "forward" is
+    /// forward.vert with forward.frag. Problems are in the group.
     const ShaderGroup& group(std::string_view name) const;
 
   private:

@@ -1,5 +1,7 @@
 #include "engine/spirv.hpp"
 
+#include "engine/find_named.hpp"
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -21,8 +23,7 @@ std::string text_at(std::span<const std::uint32_t> words)
 {
     std::string text;
     for (const std::uint32_t word : words)
-        for (int byte = 0; byte < 4; ++byte)
-        {
+        for (int byte = 0; byte < 4; ++byte) {
             const char c = static_cast<char>(word >> (8 * byte) & 0xffu);
             if (c == '\0')
                 return text;
@@ -33,8 +34,11 @@ std::string text_at(std::span<const std::uint32_t> words)
 
 VkFormat storage_format(spv::ImageFormat format)
 {
-    switch (format)
-    {
+    switch (format) {
+    case spv::ImageFormatR8:
+        return VK_FORMAT_R8_UNORM;
+    case spv::ImageFormatRg8:
+        return VK_FORMAT_R8G8_UNORM;
     case spv::ImageFormatRgba8:
         return VK_FORMAT_R8G8B8A8_UNORM;
     case spv::ImageFormatR16f:
@@ -61,8 +65,7 @@ class Reflector
     {
         if (words.size() < 5 || words[0] != spv::MagicNumber)
             throw std::logic_error("not a SPIR-V module");
-        for (words = words.subspan(5); !words.empty();)
-        {
+        for (words = words.subspan(5); !words.empty();) {
             const std::uint32_t count = words[0] >> spv::WordCountShift;
             if (count == 0 || count > words.size())
                 throw std::logic_error("truncated SPIR-V module");
@@ -97,8 +100,7 @@ class Reflector
 
     void take(const Instruction& i)
     {
-        switch (i.op)
-        {
+        switch (i.op) {
         case spv::OpEntryPoint:
             take_stage(static_cast<spv::ExecutionModel>(i.words[0]));
             break;
@@ -141,8 +143,7 @@ class Reflector
 
     void take_stage(spv::ExecutionModel model)
     {
-        switch (model)
-        {
+        switch (model) {
         case spv::ExecutionModelVertex:
             out.stage = VK_SHADER_STAGE_VERTEX_BIT;
             break;
@@ -189,12 +190,12 @@ class Reflector
         return found == member_decorations.end() ? std::nullopt : std::optional(found->second);
     }
 
-    /// Bytes of a value of this type, as member `member` of struct `parent` (which says how a matrix is laid out).
+    /// Bytes of a value of this type, as member `member` of
+    /// struct `parent` (which says how a matrix is laid out).
     std::uint32_t size_of(Id id, Id parent = 0, std::uint32_t member = 0) const
     {
         const Instruction& type = types.at(id);
-        switch (type.op)
-        {
+        switch (type.op) {
         case spv::OpTypeBool:
             return 4;
         case spv::OpTypeInt:
@@ -209,7 +210,8 @@ class Reflector
             return stride.value_or(column) * (type.words[2] - 1) + column;
         }
         case spv::OpTypeArray: {
-            const std::uint32_t stride = decoration(id, spv::DecorationArrayStride).value_or(size_of(type.words[1]));
+            const std::uint32_t stride =
+                decoration(id, spv::DecorationArrayStride).value_or(size_of(type.words[1]));
             return stride * values.at(type.words[2]);
         }
         case spv::OpTypeStruct:
@@ -233,8 +235,7 @@ class Reflector
     {
         ShaderStruct described{.name = name_of(id), .size = struct_size(id), .members = {}};
         const Instruction& type = types.at(id);
-        for (std::uint32_t m = 0; m + 1 < type.words.size(); ++m)
-        {
+        for (std::uint32_t m = 0; m + 1 < type.words.size(); ++m) {
             const auto name = member_names.find({id, m});
             described.members.push_back({name == member_names.end() ? "" : name->second,
                                          member_decoration(id, m, spv::DecorationOffset).value_or(0),
@@ -252,8 +253,7 @@ class Reflector
     void describe(const Variable& variable)
     {
         const Id pointee = types.at(variable.pointer_type).words[2];
-        switch (variable.storage)
-        {
+        switch (variable.storage) {
         case spv::StorageClassUniformConstant:
         case spv::StorageClassUniform:
         case spv::StorageClassStorageBuffer:
@@ -295,8 +295,7 @@ class Reflector
                               .set = decoration(variable.id, spv::DecorationDescriptorSet).value_or(0),
                               .binding = decoration(variable.id, spv::DecorationBinding).value_or(0)};
         Id element = pointee;
-        if (types.at(pointee).op == spv::OpTypeArray)
-        {
+        if (types.at(pointee).op == spv::OpTypeArray) {
             element = types.at(pointee).words[1];
             binding.count = values.at(types.at(pointee).words[2]);
         }
@@ -307,9 +306,7 @@ class Reflector
         {
             binding.type = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
             binding.format = storage_format(static_cast<spv::ImageFormat>(type.words[7]));
-        }
-        else if (type.op == spv::OpTypeStruct)
-        {
+        } else if (type.op == spv::OpTypeStruct) {
             binding.type = variable.storage == spv::StorageClassUniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
                                                                         : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
             binding.size = struct_size(element);
@@ -321,7 +318,8 @@ class Reflector
             (binding.count != 1 && binding.type != VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER))
             out.unsupported.push_back("binding " + binding.name + " of a kind the engine cannot give");
         if (binding.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE && binding.format == VK_FORMAT_UNDEFINED)
-            out.unsupported.push_back("storage image " + binding.name + " of a format the engine does not have");
+            out.unsupported.push_back("storage image " + binding.name +
+                                      " of a format the engine does not have");
         if (binding.set != 0)
             out.unsupported.push_back("binding " + binding.name + " in a set other than 0");
         out.bindings.push_back(std::move(binding));
@@ -330,8 +328,9 @@ class Reflector
     std::uint32_t unsized_stride(const Instruction& block) const
     {
         const Id last = block.words.back();
-        return types.at(last).op == spv::OpTypeRuntimeArray ? decoration(last, spv::DecorationArrayStride).value_or(0)
-                                                            : 0;
+        return types.at(last).op == spv::OpTypeRuntimeArray
+                   ? decoration(last, spv::DecorationArrayStride).value_or(0)
+                   : 0;
     }
 
     ShaderInterface out;
@@ -345,21 +344,24 @@ class Reflector
     std::vector<Variable> variables;
 };
 
-template <typename Named> const Named* find_named(const std::vector<Named>& list, std::string_view name)
-{
-    const auto found = std::find_if(list.begin(), list.end(), [&](const Named& n) { return n.name == name; });
-    return found == list.end() ? nullptr : &*found;
-}
-
 } // namespace
 
-const ShaderBinding* ShaderInterface::find_binding(std::string_view name) const { return find_named(bindings, name); }
+const ShaderBinding* ShaderInterface::find_binding(std::string_view name) const
+{
+    return find_named(bindings, name);
+}
 const ShaderConstant* ShaderInterface::find_constant(std::string_view name) const
 {
     return find_named(constants, name);
 }
-const ShaderStruct* ShaderInterface::find_struct(std::string_view name) const { return find_named(structs, name); }
+const ShaderStruct* ShaderInterface::find_struct(std::string_view name) const
+{
+    return find_named(structs, name);
+}
 
-ShaderInterface reflect(std::span<const std::uint32_t> words) { return Reflector(words).result(); }
+ShaderInterface reflect(std::span<const std::uint32_t> words)
+{
+    return Reflector(words).result();
+}
 
 } // namespace engine

@@ -1,5 +1,6 @@
-// What a compiled shader says about itself: bindings, vertex inputs, specialisation constants, block layouts. Reads the
-// few SPIR-V instructions that name and place things; the modules are our own, validated at build time.
+// What a compiled shader says about itself: bindings, vertex inputs,
+// specialisation constants, block layouts. Reads the few SPIR-V instructions
+// that name and place things; the modules are our own, validated at build time.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -31,9 +32,9 @@ struct ShaderBinding
     std::string name; // instance name, or the block's name when it has none
     std::uint32_t set = 0, binding = 0;
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_MAX_ENUM;
-    std::uint32_t count = 1;    // elements of an array of samplers
-    std::uint32_t size = 0;     // bytes of a uniform block, or of a storage block before its unsized array
-    std::uint32_t stride = 0;   // bytes of one element of the unsized array
+    std::uint32_t count = 1;  // elements of an array of samplers
+    std::uint32_t size = 0;   // bytes of a uniform block, or of a storage block before its unsized array
+    std::uint32_t stride = 0; // bytes of one element of the unsized array
     VkFormat format = VK_FORMAT_UNDEFINED; // of a storage image
 };
 
@@ -45,7 +46,13 @@ struct ShaderInput
 
 struct ShaderConstant
 {
-    enum class Type : std::uint8_t { Bool, Int, Uint, Float };
+    enum class Type : std::uint8_t
+    {
+        Bool,
+        Int,
+        Uint,
+        Float
+    };
     std::string name;
     std::uint32_t id = 0;
     Type type = Type::Bool;
@@ -60,7 +67,8 @@ struct ShaderInterface
     std::uint32_t outputs = 0;       // colours a fragment shader writes
     std::vector<ShaderConstant> constants;
     std::vector<ShaderStruct> structs;
-    std::vector<std::string> unsupported; // what the engine cannot feed: push constants, sets other than 0, ...
+    std::vector<std::string>
+        unsupported; // what the engine cannot feed: push constants, sets other than 0, ...
 
     const ShaderBinding* find_binding(std::string_view name) const;
     const ShaderConstant* find_constant(std::string_view name) const;

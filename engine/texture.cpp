@@ -44,34 +44,28 @@ cv::Mat to_linear_float(const cv::Mat& picture, Encoding encoding)
     picture.convertTo(linear, CV_32F);
     if (encoding == Encoding::Linear)
         return linear;
-    static const std::array<float, 256> table = []
-    {
+    static const std::array<float, 256> table = [] {
         std::array<float, 256> values{};
         for (std::size_t i = 0; i < values.size(); ++i)
             values[i] = 255.0f * srgb_to_linear(static_cast<float>(i) / 255.0f);
         return values;
     }();
-    linear.forEach<cv::Vec4f>(
-        [](cv::Vec4f& texel, const int*)
-        {
-            for (int c = 0; c < 3; ++c)
-                texel[c] = table[static_cast<std::size_t>(texel[c])];
-        });
+    linear.forEach<cv::Vec4f>([](cv::Vec4f& texel, const int*) {
+        for (int c = 0; c < 3; ++c)
+            texel[c] = table[static_cast<std::size_t>(texel[c])];
+    });
     return linear;
 }
 
 cv::Mat from_linear_float(const cv::Mat& linear, int type, Encoding encoding)
 {
     cv::Mat encoded = linear;
-    if (encoding == Encoding::Srgb)
-    {
+    if (encoding == Encoding::Srgb) {
         encoded = linear.clone();
-        encoded.forEach<cv::Vec4f>(
-            [](cv::Vec4f& texel, const int*)
-            {
-                for (int c = 0; c < 3; ++c)
-                    texel[c] = 255.0f * linear_to_srgb(texel[c] / 255.0f);
-            });
+        encoded.forEach<cv::Vec4f>([](cv::Vec4f& texel, const int*) {
+            for (int c = 0; c < 3; ++c)
+                texel[c] = 255.0f * linear_to_srgb(texel[c] / 255.0f);
+        });
     }
     cv::Mat result;
     encoded.convertTo(result, type);
@@ -82,8 +76,7 @@ void copy_levels(VkCommandBuffer commands, const Buffer& staging, const Image& i
                  const std::vector<cv::Mat>& levels)
 {
     AccessState state;
-    const auto move_to = [&](Usage usage)
-    {
+    const auto move_to = [&](Usage usage) {
         const Barrier barrier = *advance(state, usage);
         const VkImageMemoryBarrier2 image_barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
                                                   .srcStageMask = barrier.src_stages,
@@ -104,31 +97,36 @@ void copy_levels(VkCommandBuffer commands, const Buffer& staging, const Image& i
     move_to(Usage::CopyDestination);
     std::vector<VkBufferImageCopy> regions;
     VkDeviceSize offset = 0;
-    for (std::uint32_t level = 0; level < levels.size(); ++level)
-    {
+    for (std::uint32_t level = 0; level < levels.size(); ++level) {
         const cv::Mat& picture = levels[level];
-        regions.push_back(
-            {.bufferOffset = offset,
-             .imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .mipLevel = level, .layerCount = 1},
-             .imageExtent = {static_cast<std::uint32_t>(picture.cols), static_cast<std::uint32_t>(picture.rows), 1}});
+        regions.push_back({.bufferOffset = offset,
+                           .imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT,
+                                                .mipLevel = level,
+                                                .layerCount = 1},
+                           .imageExtent = {static_cast<std::uint32_t>(picture.cols),
+                                           static_cast<std::uint32_t>(picture.rows), 1}});
         offset += (picture.total() * picture.elemSize() + 15) / 16 * 16;
     }
     vkCmdCopyBufferToImage(commands, staging.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                            static_cast<std::uint32_t>(regions.size()), regions.data());
-    move_to(Usage::SampledInCompute); // from here on every kind of shader may read, and nothing ever writes again
+    move_to(
+        Usage::SampledInCompute); // from here on every kind of shader may read, and nothing ever writes again
     move_to(Usage::SampledInRaster);
 }
 
 } // namespace
 
-Texture::Texture(const Device& device, const cv::Mat& picture, Encoding encoding, bool mips, const std::string& name)
+Texture::Texture(const Device& device, const cv::Mat& picture, Encoding encoding, bool mips,
+                 const std::string& name)
     : content_id(new_content_id())
 {
     const VkFormat format = texture_format(picture, encoding);
     if (picture.empty() || format == VK_FORMAT_UNDEFINED)
-        throw std::logic_error(fmt::format("texture {}: its pixel type {} cannot be uploaded", name, picture.type()));
+        throw std::logic_error(
+            fmt::format("texture {}: its pixel type {} cannot be uploaded", name, picture.type()));
     const std::vector<cv::Mat> levels = mips ? mip_chain(picture, encoding) : std::vector<cv::Mat>{picture};
-    const ImageDesc desc{static_cast<std::uint32_t>(picture.cols), static_cast<std::uint32_t>(picture.rows), format};
+    const ImageDesc desc{static_cast<std::uint32_t>(picture.cols), static_cast<std::uint32_t>(picture.rows),
+                         format};
     image = Image(device, desc, static_cast<std::uint32_t>(levels.size()),
                   VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, name);
 
@@ -136,10 +134,10 @@ Texture::Texture(const Device& device, const cv::Mat& picture, Encoding encoding
     std::size_t size = 0;
     for (const cv::Mat& level : levels)
         size += (level.total() * level.elemSize() + 15) / 16 * 16;
-    const Buffer staging(device, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostAccess::Write, name + " staging");
+    const Buffer staging(device, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostAccess::Write,
+                         name + " staging");
     std::byte* to = staging.mapped().data();
-    for (const cv::Mat& level : levels)
-    {
+    for (const cv::Mat& level : levels) {
         const std::size_t row = static_cast<std::size_t>(level.cols) * level.elemSize();
         for (int y = 0; y < level.rows; ++y)
             std::memcpy(to + static_cast<std::size_t>(y) * row, level.ptr(y), row);
@@ -152,10 +150,10 @@ std::vector<cv::Mat> mip_chain(const cv::Mat& picture, Encoding encoding)
 {
     std::vector<cv::Mat> levels{picture};
     cv::Mat linear = to_linear_float(picture, encoding);
-    while (linear.cols > 1 || linear.rows > 1)
-    {
+    while (linear.cols > 1 || linear.rows > 1) {
         cv::Mat half;
-        cv::resize(linear, half, {std::max(1, linear.cols / 2), std::max(1, linear.rows / 2)}, 0, 0, cv::INTER_AREA);
+        cv::resize(linear, half, {std::max(1, linear.cols / 2), std::max(1, linear.rows / 2)}, 0, 0,
+                   cv::INTER_AREA);
         linear = half;
         levels.push_back(from_linear_float(linear, picture.type(), encoding));
     }

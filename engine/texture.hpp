@@ -1,7 +1,8 @@
 // An image uploaded from the CPU, with its mip levels.
 //
-// sRGB colour stays 8-bit and the sampler decodes it before it filters. On llvmpipe a trilinear sample of it costs 1.3
-// times one of plain RGBA8, but decoded once into RGBA16F it would cost 1.45 times and twice the memory.
+// sRGB colour stays 8-bit and the sampler decodes it before it filters. On
+// llvmpipe a trilinear sample of it costs 1.3 times one of plain RGBA8, but
+// decoded once into RGBA16F it would cost 1.45 times and twice the memory.
 #pragma once
 #include "engine/graph.hpp"
 #include "engine/memory.hpp"
@@ -21,8 +22,10 @@ enum class Encoding : std::uint8_t
 class Texture
 {
   public:
-    /// 1, 2 or 4 channels of 8-bit, half or float; Srgb: 4 channels of 8-bit. With `mips`, averaged in linear light.
-    Texture(const Device& device, const cv::Mat& picture, Encoding encoding, bool mips, const std::string& name);
+    /// 1, 2 or 4 channels of 8-bit, half or float; Srgb: 4
+    /// channels of 8-bit. With `mips`, averaged in linear light.
+    Texture(const Device& device, const cv::Mat& picture, Encoding encoding, bool mips,
+            const std::string& name);
 
     ExternalImage external() const { return {image.desc(), image.view(), content_id}; }
 
@@ -31,7 +34,8 @@ class Texture
     std::uint64_t content_id = 0;
 };
 
-/// Half the size each (rounded down, at least 1), down to 1 x 1, box filtered; the first is the picture itself.
+/// Half the size each (rounded down, at least 1), down to
+/// 1 x 1, box filtered; the first is the picture itself.
 std::vector<cv::Mat> mip_chain(const cv::Mat& picture, Encoding encoding);
 
 /// A number never given before in this process, so that new contents are never taken for old ones.

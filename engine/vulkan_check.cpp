@@ -10,8 +10,7 @@ void check(VkResult result, std::string_view what)
 {
     if (result >= 0)
         return;
-    switch (result)
-    {
+    switch (result) {
     case VK_ERROR_DEVICE_LOST:
         throw cicatrix::InputError("Vulkan device", fmt::format("was lost; could not {}", what),
                                    "try again, or choose another with --device");
@@ -21,8 +20,9 @@ void check(VkResult result, std::string_view what)
         throw cicatrix::InputError("Vulkan device", fmt::format("ran out of memory; could not {}", what),
                                    "make the pictures smaller, or choose another device with --device");
     case VK_ERROR_INCOMPATIBLE_DRIVER:
-        throw cicatrix::InputError("Vulkan", "no driver was found",
-                                   "install one (Debian: mesa-vulkan-drivers, which can also draw on the CPU)");
+        throw cicatrix::InputError(
+            "Vulkan", "no driver was found",
+            "install one (Debian: mesa-vulkan-drivers, which can also draw on the CPU)");
     default:
         throw cicatrix::InputError("Vulkan device",
                                    fmt::format("could not {} (VkResult {})", what, static_cast<int>(result)),

@@ -5,8 +5,8 @@
 
 namespace engine {
 
-/// Throws cicatrix::InputError for a lost device, exhausted memory or an incomplete driver, saying while doing `what`.
-/// `what` completes the sentence "could not ...".
+/// Throws cicatrix::InputError for a lost device, exhausted memory or an incomplete driver, saying while
+/// doing `what`. `what` completes the sentence "could not ...".
 void check(VkResult result, std::string_view what);
 
 } // namespace engine

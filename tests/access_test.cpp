@@ -17,8 +17,7 @@ TEST(AccessTable, HasARowForEveryUsageAndOnlyWritersHaveWriteAccess)
     constexpr VkAccessFlags2 writes =
         VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
         VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    for (int i = 0; i <= static_cast<int>(Usage::HostRead); ++i)
-    {
+    for (int i = 0; i <= static_cast<int>(Usage::HostRead); ++i) {
         const AccessRow& row = access_row(static_cast<Usage>(i));
         EXPECT_EQ(row.usage, static_cast<Usage>(i));
         EXPECT_NE(row.stages, 0u) << row.name;
@@ -109,7 +108,7 @@ TEST(Barriers, AChangeOfLayoutBetweenReadersWaitsForTheReaders)
     // and back again
     const auto back = advance(state, Usage::SampledInCompute);
     ASSERT_TRUE(back);
-    EXPECT_EQ(back->src_stages, VK_PIPELINE_STAGE_2_COPY_BIT);
+    EXPECT_EQ(back->src_stages, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT);
     EXPECT_EQ(back->old_layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
 }
 

@@ -34,17 +34,17 @@ const std::vector<PhysicalDevice> three{
 
 std::string refusal(const std::vector<PhysicalDevice>& devices, const char* wanted)
 {
-    try
-    {
+    try {
         return "took " + choose_device(devices, wanted).info.name;
-    }
-    catch (const InputError& error)
-    {
+    } catch (const InputError& error) {
         return error.what();
     }
 }
 
-TEST(DeviceChoice, TakesTheBestFitDevice) { EXPECT_EQ(&choose_device(three, ""), &three[1]); }
+TEST(DeviceChoice, TakesTheBestFitDevice)
+{
+    EXPECT_EQ(&choose_device(three, ""), &three[1]);
+}
 
 TEST(DeviceChoice, TakesTheOneAskedForByIndexOrPartOfItsName)
 {
@@ -55,8 +55,9 @@ TEST(DeviceChoice, TakesTheOneAskedForByIndexOrPartOfItsName)
 
 TEST(DeviceChoice, SaysWhichDevicesThereAreWhenTheOneAskedForIsMissing)
 {
-    EXPECT_THAT(refusal(three, "Radeon"), AllOf(HasSubstr("device 'Radeon': there is no such device"),
-                                                HasSubstr("0 = llvmpipe (LLVM 15), 1 = Intel Iris, 2 = GeForce")));
+    EXPECT_THAT(refusal(three, "Radeon"),
+                AllOf(HasSubstr("device 'Radeon': there is no such device"),
+                      HasSubstr("0 = llvmpipe (LLVM 15), 1 = Intel Iris, 2 = GeForce")));
     EXPECT_THAT(refusal(three, "3"), HasSubstr("no such device"));
 }
 
@@ -90,8 +91,9 @@ TEST_F(DeviceTest, AnUnknownDeviceIsTheUsersMistake)
 
 TEST_F(DeviceTest, AnImageBeyondTheDevicesLimitIsTheUsersMistake)
 {
-    EXPECT_THROW(Image(gpu::device(), {1u << 20, 16, VK_FORMAT_R8G8B8A8_UNORM}, 1, VK_IMAGE_USAGE_SAMPLED_BIT, "huge"),
-                 InputError);
+    EXPECT_THROW(
+        Image(gpu::device(), {1u << 20, 16, VK_FORMAT_R8G8B8A8_UNORM}, 1, VK_IMAGE_USAGE_SAMPLED_BIT, "huge"),
+        InputError);
 }
 
 TEST_F(DeviceTest, SeveralDevicesLiveSideBySide)
@@ -104,12 +106,10 @@ TEST_F(DeviceTest, SeveralDevicesLiveSideBySide)
 void write_twice_without_a_barrier()
 {
     const Buffer buffer(gpu::device(), 64, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostAccess::None, "twice");
-    gpu::device().run_once(
-        [&](VkCommandBuffer commands)
-        {
-            vkCmdFillBuffer(commands, buffer.handle(), 0, 64, 1);
-            vkCmdFillBuffer(commands, buffer.handle(), 0, 64, 2);
-        });
+    gpu::device().run_once([&](VkCommandBuffer commands) {
+        vkCmdFillBuffer(commands, buffer.handle(), 0, 64, 1);
+        vkCmdFillBuffer(commands, buffer.handle(), 0, 64, 2);
+    });
 }
 
 TEST_F(DeviceTest, AMissingBarrierIsHeard)

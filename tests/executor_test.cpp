@@ -30,7 +30,7 @@ ImageId add_fill(Graph& graph, const FillParams& params, const std::vector<glm::
     ComputePass& fill = graph.compute("fill", "test_fill.comp");
     fill.store("result", filled);
     fill.uniform("params", params);
-    fill.buffer<glm::vec2>("Offsets", offsets);
+    fill.buffer("Offsets", offsets);
     fill.dispatch(small_float.width, small_float.height);
     return filled;
 }
@@ -86,8 +86,7 @@ TEST_F(ExecutorTest, RasterSamplesWhatComputeWrote)
 TEST_F(ExecutorTest, AnUnchangedFrameRunsNothingAndStillReadsBackTheSame)
 {
     Executor executor(gpu::device(), gpu::shaders());
-    const auto frame = [&]
-    {
+    const auto frame = [&] {
         Graph graph;
         graph.readback("shown", add_show(graph, add_fill(graph, {.step = 1.0f})));
         return executor.run(graph);
@@ -101,24 +100,24 @@ TEST_F(ExecutorTest, AnUnchangedFrameRunsNothingAndStillReadsBackTheSame)
 TEST_F(ExecutorTest, AChangedUniformRerunsItsPassAndWhatFollows)
 {
     Executor executor(gpu::device(), gpu::shaders());
-    const auto frame = [&](float step, float tint)
-    {
+    const auto frame = [&](float step, float tint) {
         Graph graph;
         graph.readback("shown", add_show(graph, add_fill(graph, {.step = step}), glm::vec4(tint)));
         return executor.run(graph);
     };
     frame(1, 1);
-    EXPECT_THAT(states(frame(1, 2)), ElementsAre("fill skipped: unchanged", "show ran: changed: uniform Tint"));
+    EXPECT_THAT(states(frame(1, 2)),
+                ElementsAre("fill skipped: unchanged", "show ran: changed: uniform Tint"));
     const FrameResult result = frame(2, 2);
-    EXPECT_THAT(states(result), ElementsAre("fill ran: changed: uniform params", "show ran: changed: input filled"));
+    EXPECT_THAT(states(result),
+                ElementsAre("fill ran: changed: uniform params", "show ran: changed: input filled"));
     EXPECT_EQ(result.mat(ReadbackId{0}).at<cv::Vec4f>(0, 19)[0], 2.0f * (0.25f + 2.0f * 19.0f));
 }
 
 TEST_F(ExecutorTest, EveryFramePassesRunAlwaysAndCulledOnesNever)
 {
     Executor executor(gpu::device(), gpu::shaders());
-    for (int i = 0; i < 3; ++i)
-    {
+    for (int i = 0; i < 3; ++i) {
         Graph graph;
         const ImageId filled = add_fill(graph, {});
         const ImageId shown = add_show(graph, filled);
@@ -130,7 +129,8 @@ TEST_F(ExecutorTest, EveryFramePassesRunAlwaysAndCulledOnesNever)
         unused.dispatch(1, 1);
         graph.readback("shown", shown);
         EXPECT_THAT(states(executor.run(graph)),
-                    ElementsAre(i == 0 ? "fill ran: first run" : "fill skipped: unchanged", "show ran: every frame",
+                    ElementsAre(i == 0 ? "fill ran: first run" : "fill skipped: unchanged",
+                                "show ran: every frame",
                                 "unused culled: unused: nothing samples unused_image"));
     }
 }
@@ -138,15 +138,15 @@ TEST_F(ExecutorTest, EveryFramePassesRunAlwaysAndCulledOnesNever)
 TEST_F(ExecutorTest, ConstantsAndBuffersReachTheShader)
 {
     Executor executor(gpu::device(), gpu::shaders());
-    const auto first_texel = [&](float gain, const std::vector<glm::vec2>& offsets)
-    {
+    const auto first_texel = [&](float gain, const std::vector<glm::vec2>& offsets) {
         Graph graph;
         const ImageId filled = add_fill(graph, {.step = 1.0f}, offsets);
         std::get<ComputePass>(graph.passes.back()).constant("gain", gain);
         const ReadbackId back = graph.readback("filled", filled);
         return executor.run(graph).mat(back).at<cv::Vec4f>(0, 0);
     };
-    EXPECT_EQ(first_texel(1.0f, {}), cv::Vec4f(0.25f, 0.5f, 0.75f, 1.0f)) << "an empty buffer is one element of zeros";
+    EXPECT_EQ(first_texel(1.0f, {}), cv::Vec4f(0.25f, 0.5f, 0.75f, 1.0f))
+        << "an empty buffer is one element of zeros";
     EXPECT_EQ(first_texel(2.0f, {{1, 2}, {3, 5}}), cv::Vec4f(0.5f + 4.0f, 1.0f + 7.0f, 1.5f, 1.0f));
     // More than one block of the upload arena; llvmpipe leaves every loop after 65535 turns.
     EXPECT_EQ(first_texel(1.0f, std::vector<glm::vec2>(50000, {1, 0}))[0], 50000.25f);
@@ -155,8 +155,7 @@ TEST_F(ExecutorTest, ConstantsAndBuffersReachTheShader)
 TEST_F(ExecutorTest, AResizedImageIsMadeAnew)
 {
     Executor executor(gpu::device(), gpu::shaders());
-    for (const std::uint32_t width : {33u, 7u, 64u})
-    {
+    for (const std::uint32_t width : {33u, 7u, 64u}) {
         Graph graph;
         const ImageId image = graph.image("filled", {width, 5, VK_FORMAT_R32G32B32A32_SFLOAT});
         ComputePass& fill = graph.compute("fill", "test_fill.comp");
@@ -171,7 +170,8 @@ TEST_F(ExecutorTest, AResizedImageIsMadeAnew)
     }
 }
 
-// ---- Meshes, depth, multisampling --------------------------------------------------------------------------------
+// ---- Meshes, depth, multisampling
+// --------------------------------------------------------------------------------
 
 /// A triangle over the lower left half of the picture, counter-clockwise as one sees it.
 MeshBuffer lower_left_triangle()
@@ -248,6 +248,26 @@ TEST_F(ExecutorTest, TheNearerSurfaceWinsUnlessDepthIsNotTested)
     EXPECT_EQ(scene.run()(15, 0), cv::Vec4b(0, 255, 0, 255));
 }
 
+TEST_F(ExecutorTest, DepthCanBeSampledAndReadBack)
+{
+    const MeshBuffer mesh = lower_left_triangle();
+    MeshScene scene(1);
+    scene.draw(mesh, 0.25f, glm::vec4(1));
+    const ImageId shown = scene.graph.image("shown", {16, 16, VK_FORMAT_R32_SFLOAT});
+    RasterPass& show = scene.graph.raster("show");
+    show.color(shown, {});
+    show.sample("source", scene.pass->depth_image, Sampler::NearestClamp);
+    show.uniform("Tint", glm::vec4(2.0f));
+    show.draw("test_quad").index_count = 3;
+    const ReadbackId depth = scene.graph.readback("depth", scene.pass->depth_image);
+    const ReadbackId doubled = scene.graph.readback("doubled", shown);
+    Executor executor(gpu::device(), gpu::shaders());
+    const FrameResult result = executor.run(scene.graph);
+    EXPECT_EQ(result.mat(depth).at<float>(15, 0), 0.25f);
+    EXPECT_EQ(result.mat(depth).at<float>(0, 15), 1.0f);
+    EXPECT_EQ(result.mat(doubled).at<float>(15, 0), 0.5f);
+}
+
 TEST_F(ExecutorTest, BlendsSourceAlphaOver)
 {
     const MeshBuffer mesh = lower_left_triangle();
@@ -279,20 +299,21 @@ TEST_F(ExecutorTest, MultisamplingSmoothsTheEdgeAndOnlyTheEdge)
     EXPECT_LT(picture(8, 8)[0], 205);
 }
 
-// ---- Time, frames in flight, mistakes ----------------------------------------------------------------------------
+// ---- Time, frames in flight, mistakes
+// ----------------------------------------------------------------------------
 
 TEST_F(ExecutorTest, TimesEveryPassThatRanAndAComputePassNotAsNothing)
 {
     ASSERT_TRUE(gpu::device().info().timestamps);
     Executor executor(gpu::device(), gpu::shaders());
     const std::vector<glm::vec2> work(60000);
-    const auto frame = [&](float color)
-    {
+    const auto frame = [&](float color) {
         Graph graph;
         graph.readback("shown", add_show(graph, add_fill(graph, {.color = glm::vec3(color)}, work)));
         return executor.run(graph);
     };
-    frame(0); // once a render pass has run, llvmpipe's timestamps before a dispatch need a barrier behind them
+    frame(
+        0); // once a render pass has run, llvmpipe's timestamps before a dispatch need a barrier behind them
     const FrameResult result = frame(1);
     const double compute = result.pass("fill").gpu_ms.value(), raster = result.pass("show").gpu_ms.value();
     EXPECT_GT(compute, 0.1 * result.frame_ms) << "nearly all the frame's work";
@@ -309,13 +330,13 @@ TEST_F(ExecutorTest, TwoFramesInFlightKeepTheirOwnResults)
     Executor executor(gpu::device(), gpu::shaders());
     std::vector<FrameToken> tokens;
     std::vector<float> seen;
-    for (int i = 0; i < 6; ++i)
-    {
+    for (int i = 0; i < 6; ++i) {
         Graph graph;
         graph.readback("shown", add_show(graph, add_fill(graph, {.color = glm::vec3(float(i))})));
         tokens.push_back(executor.submit(graph));
         if (i > 0)
-            seen.push_back(executor.finish(tokens[tokens.size() - 2]).mat(ReadbackId{0}).at<cv::Vec4f>(5, 5)[0]);
+            seen.push_back(
+                executor.finish(tokens[tokens.size() - 2]).mat(ReadbackId{0}).at<cv::Vec4f>(5, 5)[0]);
     }
     EXPECT_THAT(seen, ElementsAre(0.0f, 1.0f, 2.0f, 3.0f, 4.0f));
     EXPECT_THROW(executor.finish(tokens[0]), std::logic_error);
@@ -329,15 +350,13 @@ TEST_F(ExecutorTest, ThePresentedImageCanBeCopiedAfterTheFrame)
     const FrameResult result = executor.run(graph);
     const Buffer copy(gpu::device(), std::size_t{16} * small_float.width * small_float.height,
                       VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostAccess::Read, "copy");
-    gpu::device().run_once(
-        [&](VkCommandBuffer commands)
-        {
-            const VkBufferImageCopy region{
-                .imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
-                .imageExtent = {small_float.width, small_float.height, 1}};
-            vkCmdCopyImageToBuffer(commands, executor.presented("filled"), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                                   copy.handle(), 1, &region);
-        });
+    gpu::device().run_once([&](VkCommandBuffer commands) {
+        const VkBufferImageCopy region{
+            .imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
+            .imageExtent = {small_float.width, small_float.height, 1}};
+        vkCmdCopyImageToBuffer(commands, executor.presented("filled"), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                               copy.handle(), 1, &region);
+    });
     copy.invalidate();
     float first = 0;
     std::memcpy(&first, copy.mapped().data(), sizeof first);
@@ -356,13 +375,10 @@ TEST_F(ExecutorTest, AWrongDeclarationNamesAllMistakesAndHarmsNothing)
     std::get<ComputePass>(bad.passes.back()).uniform("colour", 1.0f);
     bad.readback("shown", add_show(bad, bad.image("orphan", small_float)));
     bad.readback("filled", filled);
-    try
-    {
+    try {
         executor.run(bad);
         FAIL() << "nothing was thrown";
-    }
-    catch (const std::logic_error& error)
-    {
+    } catch (const std::logic_error& error) {
         EXPECT_THAT(error.what(), HasSubstr("pass show: samples orphan, which nobody writes"));
         EXPECT_THAT(error.what(), HasSubstr("pass fill: shader test_fill.comp knows no colour"));
     }
@@ -372,8 +388,7 @@ TEST_F(ExecutorTest, AWrongDeclarationNamesAllMistakesAndHarmsNothing)
 TEST_F(ExecutorTest, AnImageTooLargeForTheDeviceIsTheUsersMistakeAndHarmsNothing)
 {
     Executor executor(gpu::device(), gpu::shaders());
-    const auto frame = [&](std::uint32_t width)
-    {
+    const auto frame = [&](std::uint32_t width) {
         Graph graph;
         const ImageId image = graph.image("filled", {width, 1, VK_FORMAT_R32G32B32A32_SFLOAT});
         ComputePass& fill = graph.compute("fill", "test_fill.comp");
@@ -391,8 +406,7 @@ TEST_F(ExecutorTest, AnImageTooLargeForTheDeviceIsTheUsersMistakeAndHarmsNothing
 
 TEST_F(ExecutorTest, TwoExecutorsGiveTheSameBits)
 {
-    const auto bytes = []
-    {
+    const auto bytes = [] {
         const MeshBuffer mesh = lower_left_triangle();
         MeshScene scene(4);
         scene.draw(mesh, 0.5f, glm::vec4(0)).constant("show_uv", true);

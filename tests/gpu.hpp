@@ -1,5 +1,5 @@
-// The device that all GPU tests of a process share, with validation and synchronisation validation on, and the fixture
-// that turns any of its messages into a failure.
+// The device that all GPU tests of a process share, with validation and synchronisation validation on, and
+// the fixture that turns any of its messages into a failure.
 #pragma once
 #include "engine/device.hpp"
 #include "engine/executor.hpp"
@@ -15,7 +15,8 @@ std::span<const EmbeddedShader> test_shaders(); // of tests/shaders/, generated
 
 namespace gpu {
 
-/// Made on first use. Throws cicatrix::InputError without a Vulkan device or the validation layer: no test is skipped.
+/// Made on first use. Throws cicatrix::InputError without a
+/// Vulkan device or the validation layer: no test is skipped.
 engine::Device& device();
 
 /// The shaders of shaders/ and of tests/shaders/.

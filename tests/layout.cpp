@@ -14,8 +14,7 @@ void expect_layout(std::string_view shader, std::string_view name, std::size_t s
     EXPECT_EQ(block->size, size) << shader << ": " << name;
     ASSERT_EQ(block->members.size(), members.size()) << shader << ": " << name;
     auto actual = block->members.begin();
-    for (const Member& member : members)
-    {
+    for (const Member& member : members) {
         EXPECT_EQ(actual->name, member.name) << shader << ": " << name;
         EXPECT_EQ(actual->offset, member.offset) << shader << ": " << name << "." << member.name;
         EXPECT_EQ(actual->size, member.size) << shader << ": " << name << "." << member.name;

@@ -1,4 +1,5 @@
-// Compares a C++ struct with the block or struct of the same members in a compiled shader: names, offsets, sizes.
+// Compares a C++ struct with the block or struct of the
+// same members in a compiled shader: names, offsets, sizes.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,8 +15,11 @@ struct Member
 };
 
 /// `gpu::Member` of a C++ struct, to be listed in the order of declaration.
-#define CICATRIX_MEMBER(type, member)                                                                                  \
-    gpu::Member { #member, offsetof(type, member), sizeof(type::member) }
+#define CICATRIX_MEMBER(type, member)                                                                        \
+    gpu::Member                                                                                              \
+    {                                                                                                        \
+#member, offsetof(type, member), sizeof(type::member)                                                \
+    }
 
 /// Fails the test for every difference. `shader` is a file name, `name` the struct's or block's name in it.
 /// `expect_layout("forward.frag", "Light", sizeof(Light), {CICATRIX_MEMBER(Light, direction), ...})`

@@ -39,12 +39,13 @@ TEST(PlanText, NamesPassesImagesBarriersAndReasons)
     const Graph graph = small_graph();
     const Plan first = schedule(graph, {});
     const std::string text = plan_text(graph, first);
-    EXPECT_THAT(text, AllOf(HasSubstr("lut                      ran      first run"),
-                            HasSubstr("idle                     culled   unused: nothing samples unused"),
-                            HasSubstr("reads    table, albedo"), HasSubstr("writes   picture"),
-                            HasSubstr("barrier  table: compute -> vertex+fragment, general -> shader read"),
-                            HasSubstr("at the end: barrier  picture: colour output -> copy"),
-                            HasSubstr("64 x 32 RGBA16F"), HasSubstr("from lut to forward"), HasSubstr("imported")));
+    EXPECT_THAT(text,
+                AllOf(HasSubstr("lut                      ran      first run"),
+                      HasSubstr("idle                     culled   unused: nothing samples unused"),
+                      HasSubstr("reads    table, albedo"), HasSubstr("writes   picture"),
+                      HasSubstr("barrier  table: compute -> vertex+fragment, general -> shader read"),
+                      HasSubstr("at the end: barrier  picture: colour output -> copy"),
+                      HasSubstr("64 x 32 RGBA16F"), HasSubstr("from lut to forward"), HasSubstr("imported")));
     EXPECT_THAT(plan_text(graph, schedule(graph, first.memory)),
                 HasSubstr("lut                      skipped  unchanged"));
 }
@@ -53,10 +54,11 @@ TEST(PlanText, DrawsAGraphvizGraphWithAnEdgeForEveryAccess)
 {
     const Graph graph = small_graph();
     const std::string dot = plan_dot(graph, schedule(graph, {}));
-    EXPECT_THAT(dot, AllOf(HasSubstr("digraph frame {"), HasSubstr("\"pass lut\" -> \"image table\" [label=barrier]"),
-                           HasSubstr("\"image table\" -> \"pass forward\" [label=barrier]"),
-                           HasSubstr("\"image albedo\" -> \"pass forward\";"),
-                           HasSubstr("\"image picture\" -> \"readback picture\""), HasSubstr("style=dotted")));
+    EXPECT_THAT(
+        dot, AllOf(HasSubstr("digraph frame {"), HasSubstr("\"pass lut\" -> \"image table\" [label=barrier]"),
+                   HasSubstr("\"image table\" -> \"pass forward\" [label=barrier]"),
+                   HasSubstr("\"image albedo\" -> \"pass forward\";"),
+                   HasSubstr("\"image picture\" -> \"readback picture\""), HasSubstr("style=dotted")));
     EXPECT_EQ(std::count(dot.begin(), dot.end(), '{'), std::count(dot.begin(), dot.end(), '}'));
 }
 

@@ -30,7 +30,8 @@ const PassPlan& pass_plan(const Plan& plan, std::string_view name)
     throw std::out_of_range(std::string(name));
 }
 
-ImageId add_compute(Graph& graph, const std::string& name, std::initializer_list<ImageId> inputs = {}, float value = 0)
+ImageId add_compute(Graph& graph, const std::string& name, std::initializer_list<ImageId> inputs = {},
+                    float value = 0)
 {
     const ImageId output = graph.image(name + "_out", target);
     ComputePass& pass = graph.compute(name, name + ".comp");
@@ -43,7 +44,8 @@ ImageId add_compute(Graph& graph, const std::string& name, std::initializer_list
     return output;
 }
 
-ImageId add_raster(Graph& graph, const std::string& name, std::initializer_list<ImageId> inputs, bool always = false)
+ImageId add_raster(Graph& graph, const std::string& name, std::initializer_list<ImageId> inputs,
+                   bool always = false)
 {
     const ImageId output = graph.image(name + "_out", target);
     RasterPass& pass = graph.raster(name);
@@ -73,18 +75,16 @@ struct Face
 
 std::string mistakes(const Graph& graph)
 {
-    try
-    {
+    try {
         (void)schedule(graph, {});
-    }
-    catch (const std::logic_error& error)
-    {
+    } catch (const std::logic_error& error) {
         return error.what();
     }
     return "none";
 }
 
-// ---- Order and culling -------------------------------------------------------------------------------------------
+// ---- Order and culling
+// -------------------------------------------------------------------------------------------
 
 TEST(Schedule, KeepsTheDeclaredOrderWherePossibleAndPutsWritersFirst)
 {
@@ -124,7 +124,8 @@ TEST(Schedule, APresentedImageIsAnOutput)
     EXPECT_EQ(plan.final_barriers[0].barrier.new_layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
 }
 
-// ---- Skipping ----------------------------------------------------------------------------------------------------
+// ---- Skipping
+// ----------------------------------------------------------------------------------------------------
 
 TEST(Schedule, AnUnchangedFrameRunsOnlyWhatMustRunEachFrameAndWhatSamplesIt)
 {
@@ -138,8 +139,7 @@ TEST(Schedule, AnUnchangedFrameRunsOnlyWhatMustRunEachFrameAndWhatSamplesIt)
 TEST(Schedule, AChangedUniformRerunsItsPassAndWhatFollows)
 {
     Memory memory;
-    const auto build = [](float first, float second)
-    {
+    const auto build = [](float first, float second) {
         Graph graph;
         const ImageId a = add_compute(graph, "a", {}, first);
         const ImageId b = add_compute(graph, "b", {}, second);
@@ -148,7 +148,8 @@ TEST(Schedule, AChangedUniformRerunsItsPassAndWhatFollows)
     };
     memory = schedule(build(1, 2), memory).memory;
     Plan plan = schedule(build(1, 3), memory);
-    EXPECT_EQ(trace(plan), "a skipped: unchanged | b ran: changed: uniform value | c ran: changed: input b_out");
+    EXPECT_EQ(trace(plan),
+              "a skipped: unchanged | b ran: changed: uniform value | c ran: changed: input b_out");
     plan = schedule(build(1, 3), plan.memory);
     EXPECT_EQ(trace(plan), "a skipped: unchanged | b skipped: unchanged | c skipped: unchanged");
 }
@@ -180,13 +181,15 @@ TEST(Schedule, EverythingAPassDeclaresIsInItsKey)
         {"changed: draw", [](RasterPass&, Draw& draw) { draw.blend = true; }},
         {"changed: draw", [](RasterPass&, Draw& draw) { draw.depth_test = false; }},
         {"changed: draw", [](RasterPass&, Draw& draw) { draw.depth_write = false; }},
-        {"changed: buffer points", [](RasterPass&, Draw& draw)
-         { draw.buffer<float>("points", std::vector{1.0f, 3.0f}); }},
-        {"changed: samplers", [](RasterPass&, Draw& draw) { draw.sampled[0].sampler = Sampler::NearestClamp; }},
+        {"changed: buffer points",
+         [](RasterPass&, Draw& draw) {
+             draw.buffer<float>("points", std::vector{1.0f, 3.0f});
+         }},
+        {"changed: samplers",
+         [](RasterPass&, Draw& draw) { draw.sampled[0].sampler = Sampler::NearestClamp; }},
         {"changed: draw 0: draw", [](RasterPass& pass, Draw&) { pass.draw("test").index_count = 3; }},
     };
-    const auto build = [](const Case* changed)
-    {
+    const auto build = [](const Case* changed) {
         Graph graph;
         const ImageId input = graph.import("albedo", ExternalImage{target, VK_NULL_HANDLE, 5});
         const ImageId output = graph.image("out", target);
@@ -211,8 +214,7 @@ TEST(Schedule, EverythingAPassDeclaresIsInItsKey)
 
 TEST(Schedule, ReplacingAnImportedTextureRerunsWhoSamplesIt)
 {
-    const auto build = [](std::uint64_t content)
-    {
+    const auto build = [](std::uint64_t content) {
         Graph graph;
         const ImageId texture = graph.import("albedo", ExternalImage{target, VK_NULL_HANDLE, content});
         graph.readback("picture", add_compute(graph, "a", {texture}));
@@ -224,8 +226,7 @@ TEST(Schedule, ReplacingAnImportedTextureRerunsWhoSamplesIt)
 
 TEST(Schedule, AResizedImageIsWrittenAnew)
 {
-    const auto build = [](std::uint32_t width)
-    {
+    const auto build = [](std::uint32_t width) {
         Graph graph;
         const ImageId output = graph.image("out", {width, 32, VK_FORMAT_R8G8B8A8_UNORM});
         ComputePass& pass = graph.compute("a", "a.comp");
@@ -237,13 +238,13 @@ TEST(Schedule, AResizedImageIsWrittenAnew)
     const Plan first = schedule(build(64), {});
     const Plan second = schedule(build(65), first.memory);
     EXPECT_EQ(trace(second), "a ran: changed: size of out");
-    EXPECT_EQ(pass_plan(second, "a").barriers.at(0).barrier.src_stages, 0u) << "nobody has touched the new image";
+    EXPECT_EQ(pass_plan(second, "a").barriers.at(0).barrier.src_stages, 0u)
+        << "nobody has touched the new image";
 }
 
 TEST(Schedule, AnImageUsedInANewWayIsMadeAnewAndWrittenAgain)
 {
-    const auto build = [](bool read_back)
-    {
+    const auto build = [](bool read_back) {
         Graph graph;
         const ImageId a = add_compute(graph, "a");
         graph.readback("picture", add_compute(graph, "b", {a}));
@@ -258,11 +259,11 @@ TEST(Schedule, AnImageUsedInANewWayIsMadeAnewAndWrittenAgain)
 
 TEST(Schedule, ContentsOutliveTheFramesInWhichTheyAreCulled)
 {
-    const auto build = [](bool wounded)
-    {
+    const auto build = [](bool wounded) {
         Graph graph;
         const ImageId wound = add_compute(graph, "warp");
-        graph.readback("picture", wounded ? add_raster(graph, "forward", {wound}) : add_raster(graph, "plain", {}));
+        graph.readback("picture",
+                       wounded ? add_raster(graph, "forward", {wound}) : add_raster(graph, "plain", {}));
         return graph;
     };
     Memory memory = schedule(build(true), {}).memory;
@@ -273,8 +274,7 @@ TEST(Schedule, ContentsOutliveTheFramesInWhichTheyAreCulled)
 
 TEST(Schedule, ContentsThatWereNotStoredAreNotTrusted)
 {
-    const auto build = [](bool sample_depth)
-    {
+    const auto build = [](bool sample_depth) {
         Graph graph;
         const ImageId depth = graph.image("depth", depth_target);
         const ImageId lit = add_raster(graph, "forward", {});
@@ -296,14 +296,16 @@ TEST(Schedule, ContentsThatWereNotStoredAreNotTrusted)
     EXPECT_EQ(pass_plan(second, "forward").state, PassState::Skipped);
 }
 
-// ---- Barriers, stores, lifetimes ---------------------------------------------------------------------------------
+// ---- Barriers, stores, lifetimes
+// ---------------------------------------------------------------------------------
 
 TEST(Schedule, ASkippedPassHasNoBarriersAndItsImageNeedsNoneToBeSampledAgain)
 {
     const Plan first = schedule(Face(3).graph, {});
     const Plan second = schedule(Face(3).graph, first.memory);
     EXPECT_TRUE(pass_plan(second, "warp").barriers.empty());
-    ASSERT_EQ(pass_plan(second, "forward").barriers.size(), 1u) << "its own target; warp_out is still readable";
+    ASSERT_EQ(pass_plan(second, "forward").barriers.size(), 1u)
+        << "its own target; warp_out is still readable";
     EXPECT_EQ(second.passes[1].barriers[0].image, ImageId{1});
 }
 
@@ -352,7 +354,8 @@ TEST(Schedule, LifetimesSpanFromTheWriterToTheLastReader)
     EXPECT_EQ(plan.images[unused.index].first, ~0u);
 }
 
-// ---- Mistakes ----------------------------------------------------------------------------------------------------
+// ---- Mistakes
+// ----------------------------------------------------------------------------------------------------
 
 TEST(Schedule, NamesEveryMistakeAtOnce)
 {
@@ -375,14 +378,14 @@ TEST(Schedule, FindsWritersOnACycle)
 {
     Graph graph;
     const ImageId a = graph.image("a_image", target), b = graph.image("b_image", target);
-    for (const auto& [name, from, to] : {std::tuple{"a", b, a}, std::tuple{"b", a, b}})
-    {
+    for (const auto& [name, from, to] : {std::tuple{"a", b, a}, std::tuple{"b", a, b}}) {
         ComputePass& pass = graph.compute(name, "x.comp");
         pass.sample("input", from);
         pass.store("output", to);
         pass.dispatch(1, 1);
     }
-    EXPECT_THAT(mistakes(graph), HasSubstr("pass a: no order is possible, these passes need each other's images: a, b"));
+    EXPECT_THAT(mistakes(graph),
+                HasSubstr("pass a: no order is possible, these passes need each other's images: a, b"));
 }
 
 TEST(Schedule, RefusesSamplingWhatThePassItselfWrites)
@@ -424,8 +427,7 @@ TEST(Schedule, RefusesDoubleNamesWritersAndReadbacks)
     Graph graph;
     const ImageId image = graph.image("image", target);
     graph.image("image", target);
-    for (int i = 0; i < 2; ++i)
-    {
+    for (int i = 0; i < 2; ++i) {
         ComputePass& pass = graph.compute("pass", "x.comp");
         pass.store("output", image);
         pass.dispatch(1, 1);
@@ -470,7 +472,8 @@ TEST(Schedule, RefusesImpossibleImagesAndPasses)
     EXPECT_THAT(text, HasSubstr("pass nothing: draws nothing"));
     EXPECT_THAT(text, HasSubstr("pass lost: uses an image that is not declared"));
     EXPECT_THAT(text, HasSubstr("pass lost: stores to no image"));
-    EXPECT_THAT(text, HasSubstr("pass wrong: uses depth as colour target, which its depth format does not allow"));
+    EXPECT_THAT(text,
+                HasSubstr("pass wrong: uses depth as colour target, which its depth format does not allow"));
     EXPECT_THAT(text, HasSubstr("pass wrong: draw wrong has neither a mesh nor a number of vertices"));
 }
 

@@ -1,4 +1,5 @@
-// What reflection reads out of compiled shaders, and what comes of shaders that want the wrong things. No device.
+// What reflection reads out of compiled shaders, and what
+// comes of shaders that want the wrong things. No device.
 #include "engine/binding_check.hpp"
 #include "tests/gpu.hpp"
 #include "tests/layout.hpp"
@@ -31,7 +32,10 @@ struct Everything
     std::uint32_t last;
 };
 
-const ShaderInterface& layout_shader() { return gpu::shaders().find("test_layout.comp")->interface; }
+const ShaderInterface& layout_shader()
+{
+    return gpu::shaders().find("test_layout.comp")->interface;
+}
 
 TEST(Reflection, FindsBindingsByNameWithTypeCountAndSize)
 {
@@ -109,7 +113,8 @@ TEST(Layout, ADifferenceFailsTheTest)
                             "Light.strength");
 }
 
-// ---- What passes give against what shaders want ------------------------------------------------------------------
+// ---- What passes give against what shaders want
+// ------------------------------------------------------------------
 
 std::vector<std::string> problems_of(void (*declare)(Graph&))
 {
@@ -120,59 +125,52 @@ std::vector<std::string> problems_of(void (*declare)(Graph&))
 
 TEST(Bindings, NothingIsSaidWhenAllIsGiven)
 {
-    EXPECT_THAT(problems_of(
-                    [](Graph& graph)
-                    {
-                        ComputePass& pass = graph.compute("fill", "test_fill.comp");
-                        pass.store("result", ImageId{0});
-                        pass.uniform("params", glm::vec4(1.0f));
-                        pass.buffer<glm::vec2>("Offsets", {});
-                        pass.constant("gain", 2.0f);
-                    }),
+    EXPECT_THAT(problems_of([](Graph& graph) {
+                    ComputePass& pass = graph.compute("fill", "test_fill.comp");
+                    pass.store("result", ImageId{0});
+                    pass.uniform("params", glm::vec4(1.0f));
+                    pass.buffer<glm::vec2>("Offsets", {});
+                    pass.constant("gain", 2.0f);
+                }),
                 IsEmpty());
 }
 
 TEST(Bindings, EveryMistakeIsNamed)
 {
-    EXPECT_THAT(problems_of(
-                    [](Graph& graph)
-                    {
-                        ComputePass& pass = graph.compute("fill", "test_fill.comp");
-                        pass.uniform("params", 1.0f);
-                        pass.buffer<float>("Offsets", std::vector{1.0f});
-                        pass.uniform("speed", 1.0f);
-                        pass.constant("gain", 2);
-                        graph.compute("none", "missing.comp");
-                        graph.compute("stem", "test_quad");
-                    }),
-                ElementsAre("pass fill: shader test_fill.comp is given no image to store to for result",
-                            "pass fill: shader test_fill.comp wants 16 bytes for params and is given 4",
-                            "pass fill: shader test_fill.comp wants elements of 8 bytes for Offsets and is given 4 bytes",
-                            "pass fill: shader test_fill.comp is given constant gain with another type",
-                            "pass fill: shader test_fill.comp knows no speed",
-                            "pass none: there is no shader missing.comp",
-                            "pass stem: test_quad is not a compute shader"));
+    EXPECT_THAT(
+        problems_of([](Graph& graph) {
+            ComputePass& pass = graph.compute("fill", "test_fill.comp");
+            pass.uniform("params", 1.0f);
+            pass.buffer<float>("Offsets", std::vector{1.0f});
+            pass.uniform("speed", 1.0f);
+            pass.constant("gain", 2);
+            graph.compute("none", "missing.comp");
+            graph.compute("stem", "test_quad");
+        }),
+        ElementsAre(
+            "pass fill: shader test_fill.comp is given no image to store to for result",
+            "pass fill: shader test_fill.comp wants 16 bytes for params and is given 4",
+            "pass fill: shader test_fill.comp wants elements of 8 bytes for Offsets and is given 4 bytes",
+            "pass fill: shader test_fill.comp is given constant gain with another type",
+            "pass fill: shader test_fill.comp knows no speed", "pass none: there is no shader missing.comp",
+            "pass stem: test_quad is not a compute shader"));
 }
 
 TEST(Bindings, ADrawLooksInItsPassForWhatItIsNotGiven)
 {
-    EXPECT_THAT(problems_of(
-                    [](Graph& graph)
-                    {
-                        RasterPass& pass = graph.raster("show");
-                        pass.sample("source", ImageId{0});
-                        pass.draw("test_quad").uniform("Tint", glm::vec4(1.0f));
-                    }),
+    EXPECT_THAT(problems_of([](Graph& graph) {
+                    RasterPass& pass = graph.raster("show");
+                    pass.sample("source", ImageId{0});
+                    pass.draw("test_quad").uniform("Tint", glm::vec4(1.0f));
+                }),
                 IsEmpty());
-    EXPECT_THAT(problems_of(
-                    [](Graph& graph)
-                    {
-                        RasterPass& pass = graph.raster("show");
-                        pass.sample("source", ImageId{0});
-                        pass.uniform("exposure", 1.0f);
-                        pass.draw("test_quad").uniform("tint", glm::vec4(1.0f));
-                        pass.draw("test_mesh");
-                    }),
+    EXPECT_THAT(problems_of([](Graph& graph) {
+                    RasterPass& pass = graph.raster("show");
+                    pass.sample("source", ImageId{0});
+                    pass.uniform("exposure", 1.0f);
+                    pass.draw("test_quad").uniform("tint", glm::vec4(1.0f));
+                    pass.draw("test_mesh");
+                }),
                 ElementsAre("pass show: shader test_quad is given no uniform for Tint",
                             "pass show: shader test_quad knows no tint",
                             "pass show: shader test_mesh is given no uniform for place",
@@ -183,35 +181,32 @@ TEST(Bindings, ADrawLooksInItsPassForWhatItIsNotGiven)
 
 TEST(Bindings, ImagesMustHaveTheFormatAndNumberTheShaderWrites)
 {
-    EXPECT_THAT(problems_of(
-                    [](Graph& graph)
-                    {
-                        const ImageDesc desc{8, 8, VK_FORMAT_R16G16B16A16_SFLOAT};
-                        ComputePass& fill = graph.compute("fill", "test_fill.comp");
-                        fill.store("result", graph.image("half", desc));
-                        fill.uniform("params", glm::vec4(1.0f));
-                        fill.buffer<glm::vec2>("Offsets", {});
-                        RasterPass& show = graph.raster("show");
-                        show.color(graph.image("first", desc), {});
-                        show.color(graph.image("second", desc), {});
-                        show.sample("source", ImageId{0});
-                        show.draw("test_quad").uniform("Tint", glm::vec4(1.0f));
-                    }),
-                ElementsAre("pass fill: shader test_fill.comp stores RGBA32F to half, which has another format",
-                            "pass show: shader test_quad writes 1 colours, the pass has 2 targets"));
+    EXPECT_THAT(
+        problems_of([](Graph& graph) {
+            const ImageDesc desc{8, 8, VK_FORMAT_R16G16B16A16_SFLOAT};
+            ComputePass& fill = graph.compute("fill", "test_fill.comp");
+            fill.store("result", graph.image("half", desc));
+            fill.uniform("params", glm::vec4(1.0f));
+            fill.buffer<glm::vec2>("Offsets", {});
+            RasterPass& show = graph.raster("show");
+            show.color(graph.image("first", desc), {});
+            show.color(graph.image("second", desc), {});
+            show.sample("source", ImageId{0});
+            show.draw("test_quad").uniform("Tint", glm::vec4(1.0f));
+        }),
+        ElementsAre("pass fill: shader test_fill.comp stores RGBA32F to half, which has another format",
+                    "pass show: shader test_quad writes 1 colours, the pass has 2 targets"));
 }
 
 TEST(Bindings, AnArrayOfSamplersWantsEveryElement)
 {
-    EXPECT_THAT(problems_of(
-                    [](Graph& graph)
-                    {
-                        ComputePass& pass = graph.compute("all", "test_layout.comp");
-                        pass.sample("maps", ImageId{0});
-                        pass.store("result", ImageId{1});
-                        pass.uniform("everything", Everything{});
-                        pass.buffer<std::uint32_t>("Points", std::vector(5, 0u));
-                    }),
+    EXPECT_THAT(problems_of([](Graph& graph) {
+                    ComputePass& pass = graph.compute("all", "test_layout.comp");
+                    pass.sample("maps", ImageId{0});
+                    pass.store("result", ImageId{1});
+                    pass.uniform("everything", Everything{});
+                    pass.buffer<std::uint32_t>("Points", std::vector(5, 0u));
+                }),
                 ElementsAre("pass all: shader test_layout.comp wants 2 images for maps and is given 1"));
 }
 

@@ -10,7 +10,8 @@ using namespace engine;
 
 TEST(MipChain, GoesDownToOneTexelThroughOddSizes)
 {
-    const std::vector<cv::Mat> levels = mip_chain(cv::Mat(5, 12, CV_8UC4, cv::Scalar::all(10)), Encoding::Linear);
+    const std::vector<cv::Mat> levels =
+        mip_chain(cv::Mat(5, 12, CV_8UC4, cv::Scalar::all(10)), Encoding::Linear);
     ASSERT_EQ(levels.size(), 4u);
     EXPECT_EQ(levels[1].size(), cv::Size(6, 2));
     EXPECT_EQ(levels[2].size(), cv::Size(3, 1));
@@ -29,10 +30,10 @@ TEST(MipChain, AveragesColourInLinearLightAndAlphaAsItIs)
 
 TEST(MipChain, KeepsEverySrgbValueOfAFlatPicture)
 {
-    for (int value = 0; value < 256; ++value)
-    {
+    for (int value = 0; value < 256; ++value) {
         const cv::Mat flat(2, 2, CV_8UC4, cv::Scalar::all(value));
-        ASSERT_EQ(mip_chain(flat, Encoding::Srgb)[1].at<cv::Vec4b>(0, 0), cv::Vec4b::all(static_cast<uchar>(value)));
+        ASSERT_EQ(mip_chain(flat, Encoding::Srgb)[1].at<cv::Vec4b>(0, 0),
+                  cv::Vec4b::all(static_cast<uchar>(value)));
     }
 }
 
@@ -62,11 +63,11 @@ TEST_F(TextureTest, SrgbColourReachesTheShaderAsLinearLight)
     for (int i = 0; i < 256; ++i)
         ramp(0, i) = cv::Vec4b(static_cast<uchar>(i), static_cast<uchar>(255 - i), 0, static_cast<uchar>(i));
     const cv::Mat4f got = sampled(ramp, Encoding::Srgb);
-    for (int i = 0; i < 256; ++i)
-    {
+    for (int i = 0; i < 256; ++i) {
         const double encoded = i / 255.0;
         const double linear = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-        // llvmpipe decodes with a polynomial that is up to 0.0012 off, a third of a step of the 8-bit picture.
+        // llvmpipe decodes with a polynomial that is up to
+        // 0.0012 off, a third of a step of the 8-bit picture.
         EXPECT_NEAR(got(0, i)[0], linear, 0.0013) << i;
         EXPECT_NEAR(got(0, i)[3], encoded, 1e-6) << i;
     }
@@ -79,8 +80,7 @@ TEST_F(TextureTest, EveryKindOfPixelArrivesAsItIs)
         for (int x = 0; x < 5; ++x)
             expected(y, x) = cv::Vec4f(float(x) / 4, float(y) / 2, 0.25f, 0.5f);
     for (const int depth : {CV_8U, CV_16F, CV_32F})
-        for (const int channels : {1, 2, 4})
-        {
+        for (const int channels : {1, 2, 4}) {
             std::vector<cv::Mat> planes;
             cv::split(expected, planes);
             planes.resize(static_cast<std::size_t>(channels));
