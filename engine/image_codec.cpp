@@ -198,4 +198,11 @@ std::vector<std::uint8_t> encode_png(const cv::Mat& picture)
     return bytes;
 }
 
+std::vector<std::uint8_t> encode_jpeg(const cv::Mat& picture, int quality)
+{
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
+    return bytes;
+}
+
 } // namespace engine

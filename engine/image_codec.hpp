@@ -23,5 +23,7 @@ cv::Mat decode_picture(std::span<const std::uint8_t> bytes, Channels channels, s
 
 /// PNG of an 8-bit picture in OpenCV's order.
 std::vector<std::uint8_t> encode_png(const cv::Mat& picture);
+/// JPEG of an 8-bit picture in OpenCV's order; quality 0..100.
+std::vector<std::uint8_t> encode_jpeg(const cv::Mat& picture, int quality);
 
 } // namespace engine

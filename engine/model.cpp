@@ -37,15 +37,6 @@ void group_by_material(RawMesh& mesh, const std::vector<std::uint32_t>& material
     mesh.primitives = std::move(grouped);
 }
 
-void update_bounds(Model& model)
-{
-    model.min = model.max = model.vertices[0].position;
-    for (const Vertex& vertex : model.vertices) {
-        model.min = glm::min(model.min, vertex.position);
-        model.max = glm::max(model.max, vertex.position);
-    }
-}
-
 } // namespace
 
 Model load_model(const std::filesystem::path& path)
@@ -72,6 +63,15 @@ Model load_model(const std::filesystem::path& path)
     model.primitives = std::move(mesh.primitives);
     update_bounds(model);
     return model;
+}
+
+void update_bounds(Model& model)
+{
+    model.min = model.max = model.vertices[0].position;
+    for (const Vertex& vertex : model.vertices) {
+        model.min = glm::min(model.min, vertex.position);
+        model.max = glm::max(model.max, vertex.position);
+    }
 }
 
 void normalise_size(Model& model)

@@ -54,10 +54,14 @@ struct Model
 /// computed where missing; zero-area triangles are dropped; NaN, out-of-range indices and absurd sizes are refused.
 Model load_model(const std::filesystem::path& path);
 
+/// Sets min and max from the vertices, of which there must be one.
+void update_bounds(Model& model);
+
 /// Makes the model a head in metres: scales one whose height is outside 0.1..1 m to 0.25 m and says so in `notes`.
 void normalise_size(Model& model);
 
-/// Writes a binary glTF 2.0 file that load_model reads back; PNG pictures inside. Atomic (temporary name, then rename).
+/// Writes a binary glTF 2.0 file that load_model reads back; PNG pictures inside, opaque colours of more than a megapixel as
+/// JPEG. Atomic (temporary name, then rename).
 void save_model(const std::filesystem::path& path, const Model& model);
 
 } // namespace engine
