@@ -1,5 +1,6 @@
 #include "engine/binding_check.hpp"
 
+#include "engine/formats.hpp"
 #include "engine/mesh_buffer.hpp"
 
 #include <algorithm>
@@ -42,9 +43,9 @@ bool knows(const ShaderGroup& group, std::string_view name)
 class Checker
 {
   public:
-    explicit Checker(const ShaderLibrary& shaders) : library(shaders) {}
+    Checker(const Graph& checked, const ShaderLibrary& shaders) : graph(checked), library(shaders) {}
 
-    std::vector<std::string> run(const Graph& graph)
+    std::vector<std::string> run()
     {
         for (const Pass& pass : graph.passes)
         {
@@ -85,6 +86,9 @@ class Checker
             {
                 check_values(group, BindingScope(draw, pass));
                 check_inputs(group, draw);
+                if (const auto written = group.stages.back()->interface.outputs; written < pass.colors.size())
+                    complain("shader {} writes {} colours, the pass has {} targets", draw.shader, written,
+                             pass.colors.size());
             }
             for (const std::string& name : given_names(draw))
                 if (group.problems.empty() && !knows(group, name))
@@ -126,8 +130,12 @@ class Checker
                          sampled->images.size());
             return;
         case VK_DESCRIPTOR_TYPE_STORAGE_IMAGE:
-            if (!scope.stored(binding.name))
+            if (const auto* stored = scope.stored(binding.name); !stored)
                 missing("image to store to");
+            else if (stored->image.index < graph.images.size() &&
+                     graph.images[stored->image.index].desc.format != binding.format)
+                complain("shader {} stores {} to {}, which has another format", group.name,
+                         find_format(binding.format)->name, graph.images[stored->image.index].name);
             return;
         default:
             check_data(group, binding, scope.data(binding.name));
@@ -172,6 +180,7 @@ class Checker
                      draw.first_index, draw.mesh->index_count());
     }
 
+    const Graph& graph;
     const ShaderLibrary& library;
     std::string pass_name;
     std::vector<std::string> lines;
@@ -205,7 +214,7 @@ const Constant* BindingScope::constant(std::string_view name) const
 
 std::vector<std::string> check_bindings(const Graph& graph, const ShaderLibrary& library)
 {
-    return Checker(library).run(graph);
+    return Checker(graph, library).run();
 }
 
 } // namespace engine

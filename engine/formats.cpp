@@ -14,7 +14,6 @@ constexpr VkFormatFeatureFlags stored = VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
 constexpr VkFormatFeatureFlags depth =
     VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
 
-// 32-bit floats are not asked to filter: mobile GPUs that cannot are otherwise fit.
 constexpr std::array<Format, 11> table{{
     {VK_FORMAT_R8_UNORM, "R8", 1, CV_8UC1, sampled | target},
     {VK_FORMAT_R8G8_UNORM, "RG8", 2, CV_8UC2, sampled | target},
@@ -23,9 +22,9 @@ constexpr std::array<Format, 11> table{{
     {VK_FORMAT_R16_SFLOAT, "R16F", 2, CV_16FC1, sampled | target | stored},
     {VK_FORMAT_R16G16_SFLOAT, "RG16F", 4, CV_16FC2, sampled | target | stored},
     {VK_FORMAT_R16G16B16A16_SFLOAT, "RGBA16F", 8, CV_16FC4, sampled | target | stored},
-    {VK_FORMAT_R32_SFLOAT, "R32F", 4, CV_32FC1, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | target | stored},
-    {VK_FORMAT_R32G32_SFLOAT, "RG32F", 8, CV_32FC2, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | target | stored},
-    {VK_FORMAT_R32G32B32A32_SFLOAT, "RGBA32F", 16, CV_32FC4, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | target | stored},
+    {VK_FORMAT_R32_SFLOAT, "R32F", 4, CV_32FC1, sampled | target | stored},
+    {VK_FORMAT_R32G32_SFLOAT, "RG32F", 8, CV_32FC2, sampled | target | stored},
+    {VK_FORMAT_R32G32B32A32_SFLOAT, "RGBA32F", 16, CV_32FC4, sampled | target | stored},
     {VK_FORMAT_D32_SFLOAT, "D32F", 4, CV_32FC1, depth},
 }};
 

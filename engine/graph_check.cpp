@@ -105,13 +105,24 @@ class Checker
             if (read.contains(id.index))
                 complain("pass {}: samples {}, which it also writes", name, used.name);
             if (depth != (usage == Usage::Depth))
-                complain("pass {}: {} is {} but has a {} format", name, used.name, access_row(usage).name,
-                         depth ? "depth" : "colour");
+                complain("pass {}: uses {} as {}, which its {} format does not allow", name, used.name,
+                         access_row(usage).name, depth ? "depth" : "colour");
         }
+    }
+
+    /// No device need be able to filter depth.
+    void check_samplers(const std::string& pass, const Bindings& bindings)
+    {
+        for (const Bindings::Sampled& sampled : bindings.sampled)
+            for (const ImageId id : sampled.images)
+                if (known(id) && is_depth(image(id).desc.format) && sampled.sampler != Sampler::NearestClamp)
+                    complain("pass {}: samples {} with a filter, which its depth format does not allow; NearestClamp does",
+                             pass, image_name(id));
     }
 
     void check_pass(const ComputePass& pass)
     {
+        check_samplers(pass.name, pass);
         if (pass.stored.empty())
             complain("pass {}: stores to no image", pass.name);
         if (pass.width == 0 || pass.height == 0)
@@ -127,8 +138,10 @@ class Checker
             complain("pass {}: has no target", pass.name);
         if (pass.draws.empty())
             complain("pass {}: draws nothing", pass.name);
+        check_samplers(pass.name, pass);
         for (const Draw& draw : pass.draws)
         {
+            check_samplers(pass.name, draw);
             if (!draw.mesh && draw.index_count == 0)
                 complain("pass {}: draw {} has neither a mesh nor a number of vertices", pass.name, draw.shader);
             if (!draw.stored.empty())

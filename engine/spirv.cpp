@@ -31,6 +31,29 @@ std::string text_at(std::span<const std::uint32_t> words)
     return text;
 }
 
+VkFormat storage_format(spv::ImageFormat format)
+{
+    switch (format)
+    {
+    case spv::ImageFormatRgba8:
+        return VK_FORMAT_R8G8B8A8_UNORM;
+    case spv::ImageFormatR16f:
+        return VK_FORMAT_R16_SFLOAT;
+    case spv::ImageFormatRg16f:
+        return VK_FORMAT_R16G16_SFLOAT;
+    case spv::ImageFormatRgba16f:
+        return VK_FORMAT_R16G16B16A16_SFLOAT;
+    case spv::ImageFormatR32f:
+        return VK_FORMAT_R32_SFLOAT;
+    case spv::ImageFormatRg32f:
+        return VK_FORMAT_R32G32_SFLOAT;
+    case spv::ImageFormatRgba32f:
+        return VK_FORMAT_R32G32B32A32_SFLOAT;
+    default:
+        return VK_FORMAT_UNDEFINED;
+    }
+}
+
 class Reflector
 {
   public:
@@ -59,6 +82,8 @@ class Reflector
             describe(variable);
         std::sort(out.bindings.begin(), out.bindings.end(),
                   [](const ShaderBinding& a, const ShaderBinding& b) { return a.binding < b.binding; });
+        std::sort(out.inputs.begin(), out.inputs.end(),
+                  [](const ShaderInput& a, const ShaderInput& b) { return a.location < b.location; });
         return std::move(out);
     }
 
@@ -241,6 +266,10 @@ class Reflector
             if (out.stage == VK_SHADER_STAGE_VERTEX_BIT && !decoration(variable.id, spv::DecorationBuiltIn))
                 describe_input(variable, pointee);
             break;
+        case spv::StorageClassOutput:
+            if (out.stage == VK_SHADER_STAGE_FRAGMENT_BIT && !decoration(variable.id, spv::DecorationBuiltIn))
+                ++out.outputs;
+            break;
         default:
             break;
         }
@@ -275,7 +304,10 @@ class Reflector
         if (type.op == spv::OpTypeSampledImage)
             binding.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
         else if (type.op == spv::OpTypeImage && type.words[6] == 2) // 2: used without a sampler
+        {
             binding.type = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+            binding.format = storage_format(static_cast<spv::ImageFormat>(type.words[7]));
+        }
         else if (type.op == spv::OpTypeStruct)
         {
             binding.type = variable.storage == spv::StorageClassUniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
@@ -285,9 +317,11 @@ class Reflector
             if (binding.name.empty())
                 binding.name = name_of(element);
         }
-        const bool block = type.op == spv::OpTypeStruct;
-        if (binding.type == VK_DESCRIPTOR_TYPE_MAX_ENUM || (binding.count != 1 && block))
+        if (binding.type == VK_DESCRIPTOR_TYPE_MAX_ENUM ||
+            (binding.count != 1 && binding.type != VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER))
             out.unsupported.push_back("binding " + binding.name + " of a kind the engine cannot give");
+        if (binding.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE && binding.format == VK_FORMAT_UNDEFINED)
+            out.unsupported.push_back("storage image " + binding.name + " of a format the engine does not have");
         if (binding.set != 0)
             out.unsupported.push_back("binding " + binding.name + " in a set other than 0");
         out.bindings.push_back(std::move(binding));

@@ -34,6 +34,7 @@ struct ShaderBinding
     std::uint32_t count = 1;    // elements of an array of samplers
     std::uint32_t size = 0;     // bytes of a uniform block, or of a storage block before its unsized array
     std::uint32_t stride = 0;   // bytes of one element of the unsized array
+    VkFormat format = VK_FORMAT_UNDEFINED; // of a storage image
 };
 
 struct ShaderInput
@@ -56,6 +57,7 @@ struct ShaderInterface
     std::array<std::uint32_t, 3> local_size{1, 1, 1};
     std::vector<ShaderBinding> bindings;
     std::vector<ShaderInput> inputs; // of a vertex shader, built-in ones left out
+    std::uint32_t outputs = 0;       // colours a fragment shader writes
     std::vector<ShaderConstant> constants;
     std::vector<ShaderStruct> structs;
     std::vector<std::string> unsupported; // what the engine cannot feed: push constants, sets other than 0, ...

@@ -20,6 +20,9 @@ void check(VkResult result, std::string_view what)
     case VK_ERROR_OUT_OF_POOL_MEMORY:
         throw cicatrix::InputError("Vulkan device", fmt::format("ran out of memory; could not {}", what),
                                    "make the pictures smaller, or choose another device with --device");
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+        throw cicatrix::InputError("Vulkan", "no driver was found",
+                                   "install one (Debian: mesa-vulkan-drivers, which can also draw on the CPU)");
     default:
         throw cicatrix::InputError("Vulkan device",
                                    fmt::format("could not {} (VkResult {})", what, static_cast<int>(result)),

@@ -1,8 +1,12 @@
+// Frames on a device: what comes out, what is skipped, how long it took. Every test runs under validation.
 #include "engine/executor.hpp"
 #include "engine/mesh_buffer.hpp"
 #include "engine/texture.hpp"
 #include "tests/gpu.hpp"
+#include "wound/input_error.hpp"
 
+#include <cstring>
+#include <glm/glm.hpp>
 #include <gmock/gmock.h>
 
 namespace {
@@ -43,6 +47,15 @@ ImageId add_show(Graph& graph, ImageId source, glm::vec4 tint = glm::vec4(1.0f))
     return shown;
 }
 
+/// "fill ran: first run", in order of execution.
+std::vector<std::string> states(const FrameResult& result)
+{
+    std::vector<std::string> list;
+    for (const PassResult& pass : result.passes)
+        list.push_back(pass.name + " " + name_of(pass.state) + ": " + pass.reason);
+    return list;
+}
+
 using ExecutorTest = gpu::Test;
 
 TEST_F(ExecutorTest, ComputeReachesEveryTexelAndIsReadBackRowTight)
@@ -68,6 +81,334 @@ TEST_F(ExecutorTest, RasterSamplesWhatComputeWrote)
     const ReadbackId back = graph.readback("shown", shown);
     const cv::Mat picture = executor.run(graph).mat(back).clone();
     EXPECT_EQ(picture.at<cv::Vec4f>(11, 19), cv::Vec4f(38.5f, 23.0f, 1.5f, 2.0f));
+}
+
+TEST_F(ExecutorTest, AnUnchangedFrameRunsNothingAndStillReadsBackTheSame)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    const auto frame = [&]
+    {
+        Graph graph;
+        graph.readback("shown", add_show(graph, add_fill(graph, {.step = 1.0f})));
+        return executor.run(graph);
+    };
+    const FrameResult first = frame(), second = frame();
+    EXPECT_THAT(states(first), ElementsAre("fill ran: first run", "show ran: first run"));
+    EXPECT_THAT(states(second), ElementsAre("fill skipped: unchanged", "show skipped: unchanged"));
+    EXPECT_EQ(first.readbacks[0].bytes, second.readbacks[0].bytes);
+}
+
+TEST_F(ExecutorTest, AChangedUniformRerunsItsPassAndWhatFollows)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    const auto frame = [&](float step, float tint)
+    {
+        Graph graph;
+        graph.readback("shown", add_show(graph, add_fill(graph, {.step = step}), glm::vec4(tint)));
+        return executor.run(graph);
+    };
+    frame(1, 1);
+    EXPECT_THAT(states(frame(1, 2)), ElementsAre("fill skipped: unchanged", "show ran: changed: uniform Tint"));
+    const FrameResult result = frame(2, 2);
+    EXPECT_THAT(states(result), ElementsAre("fill ran: changed: uniform params", "show ran: changed: input filled"));
+    EXPECT_EQ(result.mat(ReadbackId{0}).at<cv::Vec4f>(0, 19)[0], 2.0f * (0.25f + 2.0f * 19.0f));
+}
+
+TEST_F(ExecutorTest, EveryFramePassesRunAlwaysAndCulledOnesNever)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    for (int i = 0; i < 3; ++i)
+    {
+        Graph graph;
+        const ImageId filled = add_fill(graph, {});
+        const ImageId shown = add_show(graph, filled);
+        std::get<RasterPass>(graph.passes.back()).every_frame();
+        ComputePass& unused = graph.compute("unused", "test_fill.comp");
+        unused.store("result", graph.image("unused_image", small_float));
+        unused.uniform("params", FillParams{});
+        unused.buffer<glm::vec2>("Offsets", {});
+        unused.dispatch(1, 1);
+        graph.readback("shown", shown);
+        EXPECT_THAT(states(executor.run(graph)),
+                    ElementsAre(i == 0 ? "fill ran: first run" : "fill skipped: unchanged", "show ran: every frame",
+                                "unused culled: unused: nothing samples unused_image"));
+    }
+}
+
+TEST_F(ExecutorTest, ConstantsAndBuffersReachTheShader)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    const auto first_texel = [&](float gain, const std::vector<glm::vec2>& offsets)
+    {
+        Graph graph;
+        const ImageId filled = add_fill(graph, {.step = 1.0f}, offsets);
+        std::get<ComputePass>(graph.passes.back()).constant("gain", gain);
+        const ReadbackId back = graph.readback("filled", filled);
+        return executor.run(graph).mat(back).at<cv::Vec4f>(0, 0);
+    };
+    EXPECT_EQ(first_texel(1.0f, {}), cv::Vec4f(0.25f, 0.5f, 0.75f, 1.0f)) << "an empty buffer is one element of zeros";
+    EXPECT_EQ(first_texel(2.0f, {{1, 2}, {3, 5}}), cv::Vec4f(0.5f + 4.0f, 1.0f + 7.0f, 1.5f, 1.0f));
+    // More than one block of the upload arena; llvmpipe leaves every loop after 65535 turns.
+    EXPECT_EQ(first_texel(1.0f, std::vector<glm::vec2>(50000, {1, 0}))[0], 50000.25f);
+}
+
+TEST_F(ExecutorTest, AResizedImageIsMadeAnew)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    for (const std::uint32_t width : {33u, 7u, 64u})
+    {
+        Graph graph;
+        const ImageId image = graph.image("filled", {width, 5, VK_FORMAT_R32G32B32A32_SFLOAT});
+        ComputePass& fill = graph.compute("fill", "test_fill.comp");
+        fill.store("result", image);
+        fill.uniform("params", FillParams{.step = 1.0f});
+        fill.buffer<glm::vec2>("Offsets", {});
+        fill.dispatch(width, 5);
+        const ReadbackId back = graph.readback("filled", image);
+        const cv::Mat picture = executor.run(graph).mat(back).clone();
+        ASSERT_EQ(picture.cols, static_cast<int>(width));
+        EXPECT_EQ(picture.at<cv::Vec4f>(4, picture.cols - 1)[0], 0.25f + static_cast<float>(width - 1));
+    }
+}
+
+// ---- Meshes, depth, multisampling --------------------------------------------------------------------------------
+
+/// A triangle over the lower left half of the picture, counter-clockwise as one sees it.
+MeshBuffer lower_left_triangle()
+{
+    std::vector<Vertex> vertices(3);
+    vertices[0] = {.position = {-1, -1, 0}, .normal = {}, .tangent = {}, .uv = {0, 0}}; // top left: y is down
+    vertices[1] = {.position = {-1, 1, 0}, .normal = {}, .tangent = {}, .uv = {0, 1}};
+    vertices[2] = {.position = {1, 1, 0}, .normal = {}, .tangent = {}, .uv = {1, 1}};
+    return MeshBuffer(gpu::device(), vertices, std::vector<std::uint32_t>{0, 1, 2}, "triangle");
+}
+
+struct MeshScene
+{
+    explicit MeshScene(std::uint32_t samples)
+    {
+        const VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
+        const ImageId color = graph.image("color", {16, 16, format, samples});
+        picture = samples > 1 ? graph.image("resolved", {16, 16, format}) : color;
+        pass = &graph.raster("mesh");
+        pass->color(color, {0, 0, 0, 1}, samples > 1 ? picture : ImageId{});
+        pass->depth(graph.image("depth", {16, 16, VK_FORMAT_D32_SFLOAT, samples}));
+        graph.readback("picture", picture);
+    }
+
+    Draw& draw(const MeshBuffer& mesh, float depth, glm::vec4 paint)
+    {
+        Draw& added = pass->draw("test_mesh");
+        added.mesh = &mesh;
+        added.uniform("place", depth);
+        added.uniform("Paint", paint);
+        return added;
+    }
+
+    cv::Mat4b run() const
+    {
+        Executor executor(gpu::device(), gpu::shaders());
+        return executor.run(graph).mat(ReadbackId{0}).clone();
+    }
+
+    Graph graph;
+    ImageId picture;
+    RasterPass* pass = nullptr;
+};
+
+TEST_F(ExecutorTest, DrawsCounterClockwiseTrianglesAndCullsTheirBacks)
+{
+    const MeshBuffer front = lower_left_triangle();
+    MeshScene scene(1);
+    scene.draw(front, 0.5f, glm::vec4(1, 0, 0, 1));
+    const cv::Mat4b picture = scene.run();
+    EXPECT_EQ(picture(15, 0), cv::Vec4b(255, 0, 0, 255));
+    EXPECT_EQ(picture(0, 15), cv::Vec4b(0, 0, 0, 255));
+
+    std::vector<Vertex> turned(3);
+    turned[0].position = {-1, -1, 0};
+    turned[1].position = {1, 1, 0};
+    turned[2].position = {-1, 1, 0};
+    const MeshBuffer back(gpu::device(), turned, std::vector<std::uint32_t>{0, 1, 2}, "back");
+    MeshScene culled(1), shown(1);
+    culled.draw(back, 0.5f, glm::vec4(1));
+    shown.draw(back, 0.5f, glm::vec4(1)).cull_back_faces = false;
+    EXPECT_EQ(culled.run()(15, 0), cv::Vec4b(0, 0, 0, 255));
+    EXPECT_EQ(shown.run()(15, 0), cv::Vec4b(255, 255, 255, 255));
+}
+
+TEST_F(ExecutorTest, TheNearerSurfaceWinsUnlessDepthIsNotTested)
+{
+    const MeshBuffer mesh = lower_left_triangle();
+    MeshScene scene(1);
+    scene.draw(mesh, 0.2f, glm::vec4(1, 0, 0, 1));
+    Draw& far = scene.draw(mesh, 0.7f, glm::vec4(0, 1, 0, 1));
+    EXPECT_EQ(scene.run()(15, 0), cv::Vec4b(255, 0, 0, 255));
+    far.depth_test = false;
+    EXPECT_EQ(scene.run()(15, 0), cv::Vec4b(0, 255, 0, 255));
+}
+
+TEST_F(ExecutorTest, BlendsSourceAlphaOver)
+{
+    const MeshBuffer mesh = lower_left_triangle();
+    MeshScene scene(1);
+    scene.draw(mesh, 0.5f, glm::vec4(1, 0, 0, 1));
+    scene.draw(mesh, 0.5f, glm::vec4(0, 1, 0, 0.2f)).blend = true;
+    EXPECT_EQ(scene.run()(15, 0), cv::Vec4b(204, 51, 0, 255));
+}
+
+TEST_F(ExecutorTest, GivesTheShaderTheVertexAttributesItNames)
+{
+    const MeshBuffer mesh = lower_left_triangle();
+    MeshScene scene(1);
+    scene.draw(mesh, 0.5f, glm::vec4(0)).constant("show_uv", true);
+    const cv::Vec4b texel = scene.run()(12, 4);
+    EXPECT_NEAR(texel[0], 255 * 4.5 / 16, 1.0);
+    EXPECT_NEAR(texel[1], 255 * 12.5 / 16, 1.0);
+}
+
+TEST_F(ExecutorTest, MultisamplingSmoothsTheEdgeAndOnlyTheEdge)
+{
+    const MeshBuffer mesh = lower_left_triangle();
+    MeshScene scene(4);
+    scene.draw(mesh, 0.5f, glm::vec4(1));
+    const cv::Mat4b picture = scene.run();
+    EXPECT_EQ(picture(15, 0)[0], 255);
+    EXPECT_EQ(picture(0, 15)[0], 0);
+    EXPECT_GT(picture(8, 8)[0], 50);
+    EXPECT_LT(picture(8, 8)[0], 205);
+}
+
+// ---- Time, frames in flight, mistakes ----------------------------------------------------------------------------
+
+TEST_F(ExecutorTest, TimesEveryPassThatRanAndAComputePassNotAsNothing)
+{
+    ASSERT_TRUE(gpu::device().info().timestamps);
+    Executor executor(gpu::device(), gpu::shaders());
+    const std::vector<glm::vec2> work(60000);
+    const auto frame = [&](float color)
+    {
+        Graph graph;
+        graph.readback("shown", add_show(graph, add_fill(graph, {.color = glm::vec3(color)}, work)));
+        return executor.run(graph);
+    };
+    frame(0); // once a render pass has run, llvmpipe's timestamps before a dispatch need a barrier behind them
+    const FrameResult result = frame(1);
+    const double compute = result.pass("fill").gpu_ms.value(), raster = result.pass("show").gpu_ms.value();
+    EXPECT_GT(compute, 0.1 * result.frame_ms) << "nearly all the frame's work";
+    EXPECT_GE(raster, 0.0);
+    EXPECT_GE(result.gpu_ms.value(), compute + raster);
+    EXPECT_LE(result.gpu_ms.value(), result.frame_ms);
+    EXPECT_GT(result.pass("fill").cpu_ms, 0.0);
+    const FrameResult still = frame(1);
+    EXPECT_FALSE(still.pass("fill").gpu_ms) << "a skipped pass has no time";
+}
+
+TEST_F(ExecutorTest, TwoFramesInFlightKeepTheirOwnResults)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    std::vector<FrameToken> tokens;
+    std::vector<float> seen;
+    for (int i = 0; i < 6; ++i)
+    {
+        Graph graph;
+        graph.readback("shown", add_show(graph, add_fill(graph, {.color = glm::vec3(float(i))})));
+        tokens.push_back(executor.submit(graph));
+        if (i > 0)
+            seen.push_back(executor.finish(tokens[tokens.size() - 2]).mat(ReadbackId{0}).at<cv::Vec4f>(5, 5)[0]);
+    }
+    EXPECT_THAT(seen, ElementsAre(0.0f, 1.0f, 2.0f, 3.0f, 4.0f));
+    EXPECT_THROW(executor.finish(tokens[0]), std::logic_error);
+}
+
+TEST_F(ExecutorTest, ThePresentedImageCanBeCopiedAfterTheFrame)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    Graph graph;
+    graph.present(add_fill(graph, {}));
+    const FrameResult result = executor.run(graph);
+    const Buffer copy(gpu::device(), std::size_t{16} * small_float.width * small_float.height,
+                      VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostAccess::Read, "copy");
+    gpu::device().run_once(
+        [&](VkCommandBuffer commands)
+        {
+            const VkBufferImageCopy region{
+                .imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
+                .imageExtent = {small_float.width, small_float.height, 1}};
+            vkCmdCopyImageToBuffer(commands, executor.presented("filled"), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                   copy.handle(), 1, &region);
+        });
+    copy.invalidate();
+    float first = 0;
+    std::memcpy(&first, copy.mapped().data(), sizeof first);
+    EXPECT_EQ(first, 0.25f);
+    EXPECT_THAT(states(executor.run(graph)), ElementsAre("fill skipped: unchanged"));
+}
+
+TEST_F(ExecutorTest, AWrongDeclarationNamesAllMistakesAndHarmsNothing)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    Graph good;
+    good.readback("filled", add_fill(good, {}));
+    executor.run(good);
+    Graph bad;
+    const ImageId filled = add_fill(bad, {});
+    std::get<ComputePass>(bad.passes.back()).uniform("colour", 1.0f);
+    bad.readback("shown", add_show(bad, bad.image("orphan", small_float)));
+    bad.readback("filled", filled);
+    try
+    {
+        executor.run(bad);
+        FAIL() << "nothing was thrown";
+    }
+    catch (const std::logic_error& error)
+    {
+        EXPECT_THAT(error.what(), HasSubstr("pass show: samples orphan, which nobody writes"));
+        EXPECT_THAT(error.what(), HasSubstr("pass fill: shader test_fill.comp knows no colour"));
+    }
+    EXPECT_THAT(states(executor.run(good)), ElementsAre("fill skipped: unchanged"));
+}
+
+TEST_F(ExecutorTest, AnImageTooLargeForTheDeviceIsTheUsersMistakeAndHarmsNothing)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    const auto frame = [&](std::uint32_t width)
+    {
+        Graph graph;
+        const ImageId image = graph.image("filled", {width, 1, VK_FORMAT_R32G32B32A32_SFLOAT});
+        ComputePass& fill = graph.compute("fill", "test_fill.comp");
+        fill.store("result", image);
+        fill.uniform("params", FillParams{});
+        fill.buffer<glm::vec2>("Offsets", {});
+        fill.dispatch(width, 1);
+        graph.readback("filled", image);
+        return executor.run(graph).mat(ReadbackId{0}).at<cv::Vec4f>(0, 0)[0];
+    };
+    EXPECT_EQ(frame(8), 0.25f);
+    EXPECT_THROW(frame(1u << 20), cicatrix::InputError);
+    EXPECT_EQ(frame(8), 0.25f);
+}
+
+TEST_F(ExecutorTest, TwoExecutorsGiveTheSameBits)
+{
+    const auto bytes = []
+    {
+        const MeshBuffer mesh = lower_left_triangle();
+        MeshScene scene(4);
+        scene.draw(mesh, 0.5f, glm::vec4(0)).constant("show_uv", true);
+        Executor executor(gpu::device(), gpu::shaders());
+        return executor.run(scene.graph).readbacks[0].bytes;
+    };
+    EXPECT_EQ(bytes(), bytes());
+}
+
+TEST_F(ExecutorTest, AFrameThatNeedsNothingIsNoError)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    EXPECT_TRUE(executor.run(Graph{}).passes.empty());
+    Graph graph;
+    add_fill(graph, {});
+    EXPECT_THAT(states(executor.run(graph)), ElementsAre("fill culled: unused: nothing samples filled"));
 }
 
 } // namespace

@@ -25,7 +25,7 @@ class Test : public testing::Test
 {
   protected:
     void SetUp() override { device().clear_validation_messages(); }
-    void TearDown() override;
+    void TearDown() override; // fails the test for every message of the validation layer
 };
 
 } // namespace gpu

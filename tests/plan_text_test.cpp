@@ -1,0 +1,73 @@
+// The schedule as people read it. No device.
+#include "engine/plan_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace engine;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+Graph small_graph()
+{
+    Graph graph;
+    const ImageDesc desc{64, 32, VK_FORMAT_R16G16B16A16_SFLOAT};
+    const ImageId albedo = graph.import("albedo", ExternalImage{desc, VK_NULL_HANDLE, 1});
+    const ImageId table = graph.image("table", desc), picture = graph.image("picture", desc);
+    const ImageId unused = graph.image("unused", desc);
+    ComputePass& lut = graph.compute("lut", "lut.comp");
+    lut.store("table", table);
+    lut.dispatch(64, 32);
+    ComputePass& idle = graph.compute("idle", "idle.comp");
+    idle.store("out", unused);
+    idle.dispatch(64, 32);
+    RasterPass& forward = graph.raster("forward");
+    forward.color(picture, {});
+    forward.sample("table", table);
+    forward.sample("albedo", albedo);
+    forward.draw("forward").index_count = 3;
+    forward.every_frame();
+    graph.readback("picture", picture);
+    return graph;
+}
+
+TEST(PlanText, NamesPassesImagesBarriersAndReasons)
+{
+    const Graph graph = small_graph();
+    const Plan first = schedule(graph, {});
+    const std::string text = plan_text(graph, first);
+    EXPECT_THAT(text, AllOf(HasSubstr("lut                      ran      first run"),
+                            HasSubstr("idle                     culled   unused: nothing samples unused"),
+                            HasSubstr("reads    table, albedo"), HasSubstr("writes   picture"),
+                            HasSubstr("barrier  table: compute -> vertex+fragment, general -> shader read"),
+                            HasSubstr("at the end: barrier  picture: colour output -> copy"),
+                            HasSubstr("64 x 32 RGBA16F"), HasSubstr("from lut to forward"), HasSubstr("imported")));
+    EXPECT_THAT(plan_text(graph, schedule(graph, first.memory)),
+                HasSubstr("lut                      skipped  unchanged"));
+}
+
+TEST(PlanText, DrawsAGraphvizGraphWithAnEdgeForEveryAccess)
+{
+    const Graph graph = small_graph();
+    const std::string dot = plan_dot(graph, schedule(graph, {}));
+    EXPECT_THAT(dot, AllOf(HasSubstr("digraph frame {"), HasSubstr("\"pass lut\" -> \"image table\" [label=barrier]"),
+                           HasSubstr("\"image table\" -> \"pass forward\" [label=barrier]"),
+                           HasSubstr("\"image albedo\" -> \"pass forward\";"),
+                           HasSubstr("\"image picture\" -> \"readback picture\""), HasSubstr("style=dotted")));
+    EXPECT_EQ(std::count(dot.begin(), dot.end(), '{'), std::count(dot.begin(), dot.end(), '}'));
+}
+
+TEST(PlanText, NamesCannotBreakOutOfTheGraphvizText)
+{
+    Graph graph;
+    graph.readback("x", graph.image("a\"b\\", {8, 8, VK_FORMAT_R8G8B8A8_UNORM}));
+    ComputePass& pass = graph.compute("p", "p.comp");
+    pass.store("out", ImageId{0});
+    pass.dispatch(1, 1);
+    EXPECT_THAT(plan_dot(graph, schedule(graph, {})), HasSubstr("\"image a\\\"b\\\\\""));
+}
+
+} // namespace
