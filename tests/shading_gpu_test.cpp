@@ -8,6 +8,7 @@
 
 #include "passes/shading.hpp"
 #include "tests/gpu.hpp"
+#include "tests/layout.hpp"
 
 using shared::ShadingCase;
 
@@ -344,4 +345,20 @@ TEST_F(ShadingOnGpu, NoLightNearNoFarNoneInsideTheSkinGivesAnythingButAColor)
     const std::vector<glm::vec3> values = evaluate(cases);
     for (std::size_t n = 0; n < cases.size(); ++n)
         EXPECT_TRUE(is_color(values[n])) << values[n].x << " in case " << n;
+}
+
+TEST_F(ShadingOnGpu, SharedStructsLieAlikeInBothLanguages)
+{
+    using shared::Light, shared::ShadingParams;
+    gpu::expect_layout("shading_test.comp", "ShadingParams", sizeof(ShadingParams),
+                       {CICATRIX_MEMBER(ShadingParams, rho_d), CICATRIX_MEMBER(ShadingParams, rho_ts),
+                        CICATRIX_MEMBER(ShadingParams, rho_s), CICATRIX_MEMBER(ShadingParams, alpha),
+                        CICATRIX_MEMBER(ShadingParams, beta), CICATRIX_MEMBER(ShadingParams, gamma),
+                        CICATRIX_MEMBER(ShadingParams, translucency_bound_4),
+                        CICATRIX_MEMBER(ShadingParams, slope), CICATRIX_MEMBER(ShadingParams, ambient)});
+    gpu::expect_layout("shading_test.comp", "Light", sizeof(Light),
+                       {CICATRIX_MEMBER(Light, position), CICATRIX_MEMBER(Light, kind),
+                        CICATRIX_MEMBER(Light, direction), CICATRIX_MEMBER(Light, reference_distance),
+                        CICATRIX_MEMBER(Light, strength), CICATRIX_MEMBER(Light, distance_scale),
+                        CICATRIX_MEMBER(Light, distance_offset)});
 }

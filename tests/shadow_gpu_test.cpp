@@ -5,6 +5,7 @@
 #include "engine/mesh_buffer.hpp"
 #include "passes/shadow.hpp"
 #include "tests/gpu.hpp"
+#include "tests/layout.hpp"
 
 namespace {
 
@@ -54,8 +55,15 @@ wound::Light light_at(const glm::vec3& position)
     return light;
 }
 
-std::vector<float> visibilities(const Scene& scene, const wound::Light& light,
-                                std::vector<Receiver> receivers)
+// One frame: the shadow's depth and, when there are receivers, their visibility.
+struct Frame
+{
+    engine::FrameResult result;
+    std::vector<float> visibility;
+};
+
+Frame render(engine::Executor& executor, const Scene& scene, const engine::MeshBuffer& mesh,
+             const wound::Light& light, std::vector<Receiver> receivers)
 {
     const glm::vec3 position(glm::dvec3(light.position[0], light.position[1], light.position[2]));
     for (Receiver& r : receivers)
@@ -64,10 +72,12 @@ std::vector<float> visibilities(const Scene& scene, const wound::Light& light,
     if (!shadow)
         throw std::logic_error("the light casts no shadow");
 
-    const engine::MeshBuffer mesh(gpu::device(), scene.vertices, scene.indices, "scene");
     const engine::Primitive whole{0, static_cast<std::uint32_t>(scene.indices.size()), 0};
     engine::Graph graph;
     const engine::ImageId depth = passes::add_shadow(graph, *shadow, mesh, std::span(&whole, 1));
+    if (receivers.empty())
+        return {executor.run(graph), {}};
+
     const auto count = static_cast<std::uint32_t>(receivers.size());
     const engine::ImageId visibility = graph.image("visibility", {count, 1, VK_FORMAT_R32_SFLOAT});
     engine::ComputePass& pass = graph.compute("receive", "shadow_test.comp");
@@ -77,10 +87,18 @@ std::vector<float> visibilities(const Scene& scene, const wound::Light& light,
     pass.store("visibility", visibility);
     pass.dispatch(count, 1);
     const engine::ReadbackId back = graph.readback("visibility", visibility);
+    engine::FrameResult result = executor.run(graph);
+    const cv::Mat1f values = result.mat(back);
+    const std::vector<float> lit(values.begin(), values.end());
+    return {std::move(result), lit};
+}
+
+std::vector<float> visibilities(const Scene& scene, const wound::Light& light,
+                                const std::vector<Receiver>& receivers)
+{
+    const engine::MeshBuffer mesh(gpu::device(), scene.vertices, scene.indices, "scene");
     engine::Executor executor(gpu::device(), gpu::shaders());
-    const engine::FrameResult frame = executor.run(graph);
-    const cv::Mat1f values = frame.mat(back);
-    return {values.begin(), values.end()};
+    return render(executor, scene, mesh, light, receivers).visibility;
 }
 
 Scene floor_under_a_plate()
@@ -178,4 +196,26 @@ TEST_F(ShadowOnGpu, OutsideTheLightsPictureAllIsLit)
              scene, light_at({0, 0, 0.55f}),
              {{{5, 0, 0}, {0, 0, 1}, {}}, {{0, 0, 0.6f}, {0, 0, 1}, {}}, {{0, 0, 0.55f}, {0, 0, 1}, {}}}))
         EXPECT_EQ(lit, 1);
+}
+
+TEST_F(ShadowOnGpu, RunsOnlyWhenTheLightMovesAndSomebodyLooks)
+{
+    const Scene scene = floor_under_a_plate();
+    const engine::MeshBuffer mesh(gpu::device(), scene.vertices, scene.indices, "scene");
+    engine::Executor executor(gpu::device(), gpu::shaders());
+    const auto state = [&](const wound::Light& light, const std::vector<Receiver>& receivers) {
+        return render(executor, scene, mesh, light, receivers).result.pass("shadow").state;
+    };
+    const Receiver here{{0, 0, -0.05f}, {0, 0, 1}, {}}, there{{0.08f, 0, -0.05f}, {0, 0, 1}, {}};
+    EXPECT_EQ(state(light_at({0, 0, 0.55f}), {here}), engine::PassState::Run);
+    EXPECT_EQ(state(light_at({0, 0, 0.55f}), {there}), engine::PassState::Skipped);
+    EXPECT_EQ(state(light_at({0.1f, 0, 0.55f}), {there}), engine::PassState::Run);
+    EXPECT_EQ(state(light_at({0.1f, 0, 0.55f}), {}), engine::PassState::Culled);
+}
+
+TEST_F(ShadowOnGpu, SharedStructLiesAlikeInBothLanguages)
+{
+    gpu::expect_layout(
+        "shadow_test.comp", "Shadow", sizeof(shared::Shadow),
+        {CICATRIX_MEMBER(shared::Shadow, clip_from_world), CICATRIX_MEMBER(shared::Shadow, texel)});
 }
