@@ -45,6 +45,8 @@ struct Source
     cv::Mat3f color;
     cv::Mat1f coverage, valid; // 0..1
     float radius = 0;          // of the circle of the wound's area, texels
+    float reach = 0; // how far from the border the surroundings count, texels; more for long wounds than
+                     // their area tells
 };
 
 Source checked(const Patch& patch)
@@ -52,7 +54,7 @@ Source checked(const Patch& patch)
     const int n = patch.color.rows;
     CV_Assert(n >= 8 && patch.color.cols == n && patch.mask.size() == patch.color.size());
     CV_Assert(patch.opacity.empty() || patch.opacity.size() == patch.color.size());
-    Source source{cv::Mat3f(n, n), cv::Mat1f(n, n), cv::Mat1f(n, n), 0};
+    Source source{cv::Mat3f(n, n), cv::Mat1f(n, n), cv::Mat1f(n, n), 0, 0};
     double area = 0;
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
@@ -66,6 +68,8 @@ Source checked(const Patch& patch)
                 source.color(y, x)[k] = known ? std::clamp(color[k], darkest, 1.f) : darkest;
         }
     source.radius = float(std::sqrt(area / CV_PI));
+    const cv::Rect box = cv::boundingRect(cv::Mat1b(source.coverage > .5f));
+    source.reach = .4f * source.radius + .1f * float(box.width + box.height);
     return source;
 }
 
@@ -270,7 +274,7 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
 
     const cv::Mat3f log_coarse = coarse(log_photo);
     const cv::Mat1f covered = coarse(source.coverage);
-    const float reach = .8f * source.radius * grid / float(n);
+    const float reach = source.reach * grid / float(n);
     const HealthySkin skin =
         find_healthy_skin(log_coarse, covered, coarse(source.valid), std::max(reach, 3.f));
     const Face face = coarse_face(face_skin);
