@@ -207,11 +207,11 @@ Face coarse_face(const cv::Mat3f& skin)
     return face;
 }
 
-/// Log gain of the bed when the photo's skin is darker than the face: part of that is underexposure, the rest
-/// the patient's own tone, and nothing tells how much. Never darkens: blood is as red on dark skin.
+/// Log gain of the bed when the photo's skin is much darker than the face: .4 may be the patient's own tone,
+/// most of the rest is taken for underexposure. Never darkens: blood is as red on dark skin.
 float lift(const HealthySkin& skin, const Face& face)
 {
-    return face.log_green ? std::clamp(.3f * (*face.log_green - skin.log_color[1]), 0.f, .3f) : 0;
+    return face.log_green ? std::clamp(.8f * (*face.log_green - skin.log_color[1] - .4f), 0.f, .5f) : 0;
 }
 
 /// How much darker the photo is than its healthy skin in all channels alike once blood is allowed for, log: a
