@@ -1,0 +1,257 @@
+// The warp ladder: area, folds, fixed points, agreement between the rungs.
+#include "wound/warp.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <numeric>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "wound/contour.hpp"
+
+namespace {
+
+using wound::Polyline;
+using wound::Warp;
+using wound::WarpRung;
+
+/// A closed polyline as in a drawing: `radius(angle)` about the origin.
+template <typename Radius>
+Polyline polar(Radius radius)
+{
+    Polyline curve;
+    for (int i = 0; i < 720; ++i) {
+        const double angle = -i * std::numbers::pi / 360; // counter-clockwise on screen
+        curve.emplace_back(radius(angle) * std::cos(angle), radius(angle) * std::sin(angle));
+    }
+    return curve;
+}
+
+Polyline crescent()
+{
+    Polyline curve;
+    for (int i = 0; i <= 300; ++i) {
+        const double angle = 2.2 - 4.4 * i / 300;
+        curve.emplace_back(.45 * std::cos(angle), .45 * std::sin(angle));
+    }
+    for (int i = 300; i >= 0; --i) {
+        const double angle = 2.2 - 4.4 * i / 300;
+        curve.emplace_back(.05 + .30 * std::cos(angle), .30 * std::sin(angle));
+    }
+    return curve;
+}
+
+Polyline cut() // 20 : 1
+{
+    Polyline curve;
+    for (int i = 0; i < 400; ++i) {
+        const double angle = -i * std::numbers::pi / 200;
+        curve.emplace_back(.45 * std::copysign(std::sqrt(std::abs(std::cos(angle))), std::cos(angle)), .0225 * std::sin(angle));
+    }
+    return curve;
+}
+
+struct Shape
+{
+    std::string name;
+    Polyline border;
+    cv::Point2d centroid;
+    wound::ContractionFlow flow;
+};
+
+cv::Point2d centroid_of(const Polyline& curve)
+{
+    cv::Point2d sum;
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+        const cv::Point2d a = curve[i], b = curve[(i + 1) % curve.size()];
+        sum += (a + b) * (b.x * a.y - a.x * b.y);
+    }
+    return sum / (6 * wound::signed_area(curve));
+}
+
+const std::vector<Shape>& shapes()
+{
+    static const std::vector<Shape> all = [] {
+        std::vector<std::pair<std::string, Polyline>> drawn{
+            {"circle", polar([](double) { return .45; })},
+            {"star", polar([](double a) { return .32 + .12 * std::cos(5 * a); })},
+            {"ragged", polar([](double a) { return .36 + .05 * std::sin(3 * a + 1) + .03 * std::sin(7 * a) + .015 * std::sin(17 * a + 2); })},
+            {"crescent", crescent()},
+            {"cut", cut()}};
+        Polyline edge = polar([](double) { return .28; });
+        for (cv::Point2d& p : edge)
+            p += cv::Point2d(.6, .1);
+        drawn.emplace_back("near the frame", edge);
+        std::vector<Shape> result;
+        for (auto& [name, border] : drawn) {
+            const cv::Point2d centroid = centroid_of(border);
+            const auto points = wound::control_points(border, centroid, wound::spacing_from_curvature(border, centroid));
+            result.push_back({name, border, centroid, wound::prepare_flow(border, points, centroid)});
+        }
+        return result;
+    }();
+    return all;
+}
+
+/// Area of what a backward warp shows of the inside of `border`, from fine samples of today's neighbourhood of the wound.
+double warped_area(const Shape& shape, const Warp& warp)
+{
+    constexpr int kMask = 4096, kSamples = 400, kShift = 6;
+    cv::Mat1b inside = cv::Mat1b::zeros(kMask, kMask);
+    std::vector<cv::Point> vertices;
+    double reach = 0;
+    for (cv::Point2d p : shape.border) {
+        const cv::Point2d pixel = (p + cv::Point2d(1, 1)) * (kMask / 2) - cv::Point2d(.5, .5);
+        vertices.emplace_back(cvRound(pixel.x * (1 << kShift)), cvRound(pixel.y * (1 << kShift)));
+        reach = std::max(reach, cv::norm(p - shape.centroid));
+    }
+    cv::fillPoly(inside, std::vector{vertices}, 1, cv::LINE_8, kShift);
+    reach *= 1.1 * warp.scale;
+    std::vector<int> count(kSamples, 0);
+    cv::parallel_for_({0, kSamples}, [&](const cv::Range& rows) {
+        for (int j = rows.start; j < rows.end; ++j)
+            for (int i = 0; i < kSamples; ++i) {
+                const cv::Point2d unit((i + .5) / kSamples * 2 - 1, (j + .5) / kSamples * 2 - 1);
+                const cv::Point2d p = (warp.apply(shape.centroid + reach * unit) + cv::Point2d(1, 1)) * (kMask / 2);
+                if (p.x >= 0 && p.y >= 0 && p.x < kMask && p.y < kMask)
+                    count[j] += inside(static_cast<int>(p.y), static_cast<int>(p.x));
+            }
+    });
+    return std::accumulate(count.begin(), count.end(), 0.) * 4 * reach * reach / kSamples / kSamples;
+}
+
+TEST(Warp, DefaultIsTheIdentity)
+{
+    EXPECT_EQ(Warp{}.apply({.3, -.7}), cv::Point2d(.3, -.7));
+}
+
+TEST(Warp, ControlPointsAndCentroidGoWhereEquationOneSays)
+{
+    for (const Shape& shape : shapes())
+        for (double r : {1.2, .6, .05})
+            for (WarpRung rung : {WarpRung::dense, WarpRung::composed}) {
+                const Warp warp = wound::make_warp(shape.flow, r, rung);
+                for (cv::Point2d control : shape.flow.control_points) {
+                    const cv::Point2d offset = control - shape.centroid;
+                    const cv::Point2d today = control - offset * (1 - std::sqrt(r)); // d_n = D_n (1 - sqrt r)
+                    EXPECT_LT(cv::norm(warp.apply(today) - control), 1e-7) << shape.name << " " << r;
+                }
+            }
+}
+
+TEST(Warp, WarpedAreaIsTheRatioOnEveryFoldFreeRung)
+{
+    for (const Shape& shape : shapes())
+        for (WarpRung rung : {WarpRung::radial, WarpRung::grid}) { // composed: within a quarter texel of grid, tested below
+            const double day0 = warped_area(shape, Warp{});
+            EXPECT_NEAR(day0 / wound::signed_area(shape.border), 1, .025); // filling takes the outline's pixels too
+            for (double r : {.9, .6, .4, .2, .1, .05}) {
+                const double ratio = warped_area(shape, wound::make_warp(shape.flow, r, rung)) / day0;
+                EXPECT_NEAR(ratio / r, 1, .02) << shape.name << " " << r << " rung " << static_cast<int>(rung);
+                EXPECT_NEAR(ratio, r, .005) << shape.name;
+            }
+        }
+}
+
+TEST(Warp, NeverFoldsDownToOnePercent)
+{
+    for (const Shape& shape : shapes())
+        for (double r : {1.4, .4, .05, .01})
+            for (WarpRung rung : {WarpRung::radial, WarpRung::grid}) {
+                if (r > 1 && shape.name == "near the frame")
+                    continue; // it would grow out of the patch
+                const auto check = wound::check_folds(wound::make_warp(shape.flow, r, rung), 512);
+                EXPECT_EQ(check.folded_texels, 0) << shape.name << " " << r << " rung " << static_cast<int>(rung);
+                EXPECT_GT(check.least_jacobian, 0);
+            }
+    for (const Shape& shape : shapes())
+        EXPECT_EQ(wound::check_folds(wound::make_warp(shape.flow, .01, WarpRung::composed), 100).folded_texels, 0) << shape.name;
+}
+
+TEST(Warp, OneThinPlateStepFoldsWhichIsWhyStepsAreComposed)
+{
+    const auto check = wound::check_folds(wound::make_warp(shapes().front().flow, .01, WarpRung::dense), 128);
+    EXPECT_GT(check.folded_texels, 1000);
+}
+
+TEST(Warp, GridIsWithinAQuarterTexelOfTheComposedMap)
+{
+    for (const Shape& shape : shapes())
+        for (double r : {1.2, .4, .05, .01}) {
+            const cv::Mat2d exact = wound::backward_map(wound::make_warp(shape.flow, r, WarpRung::composed), 80);
+            const cv::Mat2d grid = wound::backward_map(wound::make_warp(shape.flow, r, WarpRung::grid), 80);
+            double worst = 0;
+            for (int j = 0; j < 80; ++j)
+                for (int i = 0; i < 80; ++i)
+                    worst = std::max(worst, cv::norm(exact(j, i) - grid(j, i)));
+            EXPECT_LE(worst * 256, .25) << shape.name << " " << r; // texels of 512
+        }
+}
+
+TEST(Warp, FrameAndCentroidStay)
+{
+    for (const Shape& shape : shapes())
+        for (double r : {1.2, .6, .05})
+            for (WarpRung rung : {WarpRung::radial, WarpRung::grid, WarpRung::composed}) {
+                const Warp warp = wound::make_warp(shape.flow, r, rung);
+                EXPECT_LT(cv::norm(warp.apply(shape.centroid) - shape.centroid), .03 * .45) << shape.name;
+                for (double t = -1; t <= 1; t += .01)
+                    for (cv::Point2d p : {cv::Point2d(t, -1), {t, 1}, {-1, t}, {1, t}})
+                        EXPECT_LT(cv::norm(warp.apply(p) - p) * 256, .75) << shape.name << " " << r; // texels of 512
+            }
+}
+
+TEST(Warp, IsContinuousInTheRatio)
+{
+    // Across a whole number of steps, r = .75^2, the partial step vanishes or a new one appears.
+    const auto& flow = shapes()[1].flow;
+    const double r = wound::kStepScale * wound::kStepScale;
+    const cv::Mat2d a = wound::backward_map(wound::make_warp(flow, r * (1 - 1e-6), WarpRung::composed), 32);
+    const cv::Mat2d b = wound::backward_map(wound::make_warp(flow, r * (1 + 1e-6), WarpRung::composed), 32);
+    EXPECT_LT(cv::norm(a - b, cv::NORM_INF), 1e-5);
+}
+
+TEST(Warp, RatioOneIsTheIdentityAndZeroIsDrawnAsTheSmallest)
+{
+    for (WarpRung rung : {WarpRung::radial, WarpRung::grid, WarpRung::dense, WarpRung::composed}) {
+        const Warp same = wound::make_warp(shapes()[2].flow, 1, rung);
+        for (cv::Point2d p : {cv::Point2d(.2, .1), {-.8, .7}, {0, 0}})
+            EXPECT_LT(cv::norm(same.apply(p) - p), 1e-7);
+        EXPECT_EQ(wound::make_warp(shapes()[2].flow, 0, rung).scale, wound::kSmallestScale);
+    }
+}
+
+TEST(Warp, CoincidentAndCollinearControlPointsAreSolved)
+{
+    const Polyline border = polar([](double) { return .4; });
+    Polyline points = wound::control_points(border, {0, 0}, .1);
+    points.push_back(points.front());
+    points.push_back(points[1] * (1 - 1e-6));
+    const Warp warp = wound::make_warp(wound::prepare_flow(border, points, {0, 0}), .1, WarpRung::composed);
+    for (cv::Point2d p : points)
+        EXPECT_LT(cv::norm(warp.apply(p * std::sqrt(.1)) - p), 1e-6);
+
+    const Polyline line{{-.4, 0}, {-.2, 0}, {.2, 0}, {.4, 0}};
+    const Warp flat = wound::make_warp(wound::prepare_flow(border, line, {0, 0}), .1, WarpRung::composed);
+    EXPECT_LT(cv::norm(flat.apply(line[3] * std::sqrt(.1)) - line[3]), 1e-6);
+}
+
+TEST(Warp, PackedLayoutHoldsEveryNumberInOrder)
+{
+    std::vector<shared::vec2> values{{9, 9}};
+    const Warp composed = wound::make_warp(shapes()[0].flow, .3, WarpRung::composed);
+    const auto header = wound::pack(composed, values);
+    EXPECT_EQ(header.first, 1U);
+    EXPECT_EQ(header.steps, composed.steps.size());
+    ASSERT_EQ(values.size(), 1 + composed.steps.size() * (3 + 2 * header.count));
+    EXPECT_FLOAT_EQ(values[1 + 3 + 2 * header.count].x, static_cast<float>(composed.steps[1].affine[0].x));
+
+    const Warp grid = wound::make_warp(shapes()[0].flow, .3, WarpRung::grid);
+    const auto second = wound::pack(grid, values);
+    EXPECT_EQ(second.first + second.count + second.count * second.count, values.size());
+    EXPECT_FLOAT_EQ(values[second.first].x, -1);
+    EXPECT_FLOAT_EQ(values[second.first + second.count + 1].x, static_cast<float>(grid.grid(0, 1)[0]));
+}
+
+} // namespace
