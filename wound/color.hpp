@@ -44,4 +44,13 @@ Color linear_from_lab(const Lab& lab);
 /// CIEDE2000 (CIE 142-2001) with kL = kC = kH = 1, after Sharma, Wu & Dalal 2005. About 1 is just noticeable.
 double delta_e2000(const Lab& x, const Lab& y);
 
+// ---- Whole pictures -------------------------------------------------------------------------------------
+
+/// 8-bit sRGB to linear 0..1, channel by channel.
+cv::Mat3f linear_from_srgb(const cv::Mat3b& srgb);
+/// Linear, clamped to 0..1, to 8-bit sRGB.
+cv::Mat3b srgb_from_linear(const cv::Mat3f& linear);
+/// L 0..100, a and b about -100..100, from linear values clamped to 0..1.
+cv::Mat3f lab_from_linear(const cv::Mat3f& linear);
+
 } // namespace wound

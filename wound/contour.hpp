@@ -37,6 +37,6 @@ Polyline control_points(const Polyline& border, cv::Point2d centroid, double spa
 /// The widest spacing at which straight lines between the control points stray from the border by at most `tolerance` of the
 /// square root of the area it encloses: narrow on a strongly curved border, wide on a smooth one. Between a 48th and a 12th of
 /// the wound's extent.
-double spacing_from_curvature(const Polyline& border, cv::Point2d centroid, double tolerance = .006);
+double spacing_from_curvature(const Polyline& border, cv::Point2d centroid, double tolerance = .012);
 
 } // namespace wound

@@ -225,8 +225,8 @@ HealthySkin find_healthy_skin(const cv::Mat3f& log_color, const cv::Mat1f& cover
             skin.health(y, x) *= connected(y, x) ? smooth(.15f, .7f, skin.outwardness(y, x)) : 0;
         }
     cv::GaussianBlur(skin.outwardness, skin.outwardness, {5, 5}, 1);
-    cv::GaussianBlur(skin.rawness, skin.rawness, {5, 5}, 1);
-    cv::GaussianBlur(skin.foreignness, skin.foreignness, {5, 5}, .8);
+    cv::GaussianBlur(skin.rawness, skin.rawness, {9, 9}, 2);
+    cv::GaussianBlur(skin.foreignness, skin.foreignness, {7, 7}, 1.4);
     skin.found = find_color(log_color, skin.health, skin.log_color);
     return skin;
 }

@@ -45,6 +45,8 @@ struct Source
     cv::Mat3f color;
     cv::Mat1f coverage, valid; // 0..1
     float radius = 0;          // of the circle of the wound's area, texels
+    float reach = 0; // how far from the border the surroundings count, texels; more for long wounds than
+                     // their area tells
 };
 
 Source checked(const Patch& patch)
@@ -52,7 +54,7 @@ Source checked(const Patch& patch)
     const int n = patch.color.rows;
     CV_Assert(n >= 8 && patch.color.cols == n && patch.mask.size() == patch.color.size());
     CV_Assert(patch.opacity.empty() || patch.opacity.size() == patch.color.size());
-    Source source{cv::Mat3f(n, n), cv::Mat1f(n, n), cv::Mat1f(n, n), 0};
+    Source source{cv::Mat3f(n, n), cv::Mat1f(n, n), cv::Mat1f(n, n), 0, 0};
     double area = 0;
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
@@ -66,6 +68,8 @@ Source checked(const Patch& patch)
                 source.color(y, x)[k] = known ? std::clamp(color[k], darkest, 1.f) : darkest;
         }
     source.radius = float(std::sqrt(area / CV_PI));
+    const cv::Rect box = cv::boundingRect(cv::Mat1b(source.coverage > .5f));
+    source.reach = .4f * source.radius + .1f * float(box.width + box.height);
     return source;
 }
 
@@ -203,11 +207,11 @@ Face coarse_face(const cv::Mat3f& skin)
     return face;
 }
 
-/// Log gain of the bed when the photo's skin is darker than the face: part of that is underexposure, the rest
-/// the patient's own tone, and nothing tells how much. Never darkens: blood is as red on dark skin.
+/// Log gain of the bed when the photo's skin is much darker than the face: .4 may be the patient's own tone,
+/// most of the rest is taken for underexposure. Never darkens: blood is as red on dark skin.
 float lift(const HealthySkin& skin, const Face& face)
 {
-    return face.log_green ? std::clamp(.3f * (*face.log_green - skin.log_color[1]), 0.f, .3f) : 0;
+    return face.log_green ? std::clamp(.8f * (*face.log_green - skin.log_color[1] - .4f), 0.f, .5f) : 0;
 }
 
 /// How much darker the photo is than its healthy skin in all channels alike once blood is allowed for, log: a
@@ -270,7 +274,7 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
 
     const cv::Mat3f log_coarse = coarse(log_photo);
     const cv::Mat1f covered = coarse(source.coverage);
-    const float reach = .8f * source.radius * grid / float(n);
+    const float reach = source.reach * grid / float(n);
     const HealthySkin skin =
         find_healthy_skin(log_coarse, covered, coarse(source.valid), std::max(reach, 3.f));
     const Face face = coarse_face(face_skin);

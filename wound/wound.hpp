@@ -21,6 +21,7 @@ struct PreparedWound
     std::vector<cv::Point2d> control_points; // on the border, patch coordinates
     cv::Point2d centroid;                    // patch coordinates (0,0 up to rounding)
     double area = 0;                         // of the mask, patch units squared (the patch is 4)
+    ContractionFlow flow;                    // what the warps of all days share
 };
 
 /// One day. r is the unhealed ratio, 1 -> 0; recovery = 1 - r (PAPER.md 1 keeps the two apart).
@@ -30,7 +31,7 @@ struct WoundDay
     double unhealed_ratio = 1; // area of the open bed / initial area
     double border_ratio = 1;   // area inside the outer border / initial area; equals unhealed_ratio for pure contraction
     double recovery_ratio = 0; // 1 - unhealed_ratio, clamped to 0..1
-    double depth_scale = 1;    // sqrt(unhealed_ratio)
+    double depth_scale = 1;    // sqrt(unhealed_ratio), at most 1
     Warp border_warp, bed_warp; // backward maps: today's patch coordinates -> day 0's
 };
 

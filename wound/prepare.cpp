@@ -1,0 +1,168 @@
+#include "wound/prepare.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "wound/color.hpp"
+#include "wound/contour.hpp"
+#include "wound/input_error.hpp"
+
+namespace wound {
+
+namespace {
+
+float smoothstep(float low, float high, float x)
+{
+    const float t = std::clamp((x - low) / (high - low), 0.F, 1.F);
+    return t * t * (3 - 2 * t);
+}
+
+/// Fills what is not part of the picture with the mean of nearby picture, so that no black leaks into blurred or pulled skin.
+void fill_outside(cv::Mat3f& color, const cv::Mat1f& picture)
+{
+    cv::Mat3f weight, sum;
+    cv::Mat1f mass;
+    cv::merge(std::vector<cv::Mat>{picture, picture, picture}, weight);
+    const double sigma = std::max(color.cols, color.rows) / 12.;
+    cv::GaussianBlur(color.mul(weight), sum, {}, sigma);
+    cv::GaussianBlur(picture, mass, {}, sigma);
+    const cv::Scalar whole = cv::mean(color, picture > .5F);
+    const cv::Vec3f mean(static_cast<float>(whole[0]), static_cast<float>(whole[1]), static_cast<float>(whole[2]));
+    for (int j = 0; j < color.rows; ++j)
+        for (int i = 0; i < color.cols; ++i) {
+            const cv::Vec3f nearby = (sum(j, i) + 1e-3F * mean) / (mass(j, i) + 1e-3F);
+            color(j, i) = picture(j, i) * color(j, i) + (1 - picture(j, i)) * nearby;
+        }
+}
+
+/// 1 in the wound and close around it, falling to 0 within the surrounding skin and well inside the patch's frame.
+cv::Mat1f first_opacity(const cv::Mat1f& mask, const cv::Mat1f& picture)
+{
+    cv::Mat1f outward, to_gap;
+    cv::distanceTransform(mask <= .5F, outward, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+    cv::distanceTransform(picture > .99F, to_gap, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+    const float unit = 2.F / static_cast<float>(mask.cols);
+    cv::Mat1f opacity(mask.size());
+    for (int j = 0; j < mask.rows; ++j)
+        for (int i = 0; i < mask.cols; ++i) {
+            const float x = (static_cast<float>(i) + .5F) * unit - 1, y = (static_cast<float>(j) + .5F) * unit - 1;
+            const float skin = 1 - smoothstep(.02F, .32F, outward(j, i) * unit);
+            const float frame = 1 - smoothstep(.7F, .92F, std::max(std::abs(x), std::abs(y)));
+            opacity(j, i) = skin * frame * smoothstep(0, .1F, to_gap(j, i) * unit);
+        }
+    cv::GaussianBlur(opacity, opacity, {}, mask.cols / 100.); // distances crease along the border's concavities
+    return opacity;
+}
+
+/// The photograph's square of `side` pixels around `center`, resampled to size x size.
+struct Resampling
+{
+    cv::Matx23d to_photo; // texel -> pixel
+    double pixels_per_texel;
+    int size;
+
+    Resampling(cv::Point2d center, double side, int texels) : pixels_per_texel(side / texels), size(texels)
+    {
+        const double offset = (.5 - texels / 2.) * pixels_per_texel;
+        to_photo = {pixels_per_texel, 0, center.x + offset, 0, pixels_per_texel, center.y + offset};
+    }
+
+    cv::Mat operator()(cv::Mat image, int border) const
+    {
+        if (pixels_per_texel > 1) {
+            cv::Mat smooth; // or fine detail would alias
+            cv::GaussianBlur(image, smooth, {}, .5 * pixels_per_texel);
+            image = smooth;
+        }
+        cv::Mat resampled;
+        cv::warpAffine(image, resampled, to_photo, {size, size}, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, border);
+        return resampled;
+    }
+};
+
+/// Antialiased coverage over about two texels: a binary mask's stairs are smoothed at photo resolution, then the edge is steepened.
+cv::Mat1f resample_mask(const cv::Mat1b& mask, const Resampling& resample)
+{
+    cv::Mat1f coverage;
+    mask.convertTo(coverage, CV_32F, 1 / 255.);
+    cv::GaussianBlur(coverage, coverage, {}, .8);
+    cv::Mat1f soft = resample(coverage, cv::BORDER_CONSTANT);
+    const double gain = std::max(1 / resample.pixels_per_texel, 1.);
+    cv::Mat1f sharp = cv::min(cv::max((soft - .5F) * gain + .5F, 0), 1);
+    // A speck of a few pixels is lowered below one half by the smoothing: its own peak is the reference then.
+    double peak = 0;
+    cv::minMaxLoc(soft, nullptr, &peak);
+    if (peak < .75)
+        sharp = cv::min(cv::max((soft / peak - .5F) * gain + .5F, 0), 1);
+    return sharp;
+}
+
+void check(const Photograph& photograph, const Preparation& preparation)
+{
+    if (photograph.srgb.empty())
+        throw cicatrix::InputError(preparation.where, "the photograph is empty", "give a PNG or JPEG picture");
+    if (!(preparation.width_mm >= .5 && preparation.width_mm <= 200))
+        throw cicatrix::InputError(fmt::format("{}: width_mm", preparation.where), fmt::format("{} is out of range", preparation.width_mm),
+                                   "give the wound's longer side, from 0.5 to 200 mm");
+    CV_Assert(preparation.patch_size >= 32 && preparation.patch_size <= 4096);
+}
+
+} // namespace
+
+PreparedWound prepare(const Photograph& photograph, const Preparation& preparation)
+{
+    check(photograph, preparation);
+    const cv::Mat1b mask = photograph.mask.empty()
+                               ? checked_mask(segment(photograph.srgb, preparation.hints, preparation.where), photograph.srgb.size(), preparation.where)
+                               : checked_mask(photograph.mask, photograph.srgb.size(), preparation.where);
+    const cv::Rect bounds = cv::boundingRect(mask);
+    const cv::Moments moments = cv::moments(mask, true);
+    const cv::Point2d centroid(moments.m10 / moments.m00, moments.m01 / moments.m00);
+    const double side = std::max(bounds.width, bounds.height) / kWoundShare;
+    const Resampling resample(centroid, side, preparation.patch_size);
+
+    cv::Mat1f whole;
+    picture_area(photograph.srgb).convertTo(whole, CV_32F, 1 / 255.);
+    const cv::Mat1f picture = resample(whole, cv::BORDER_CONSTANT);
+    Patch patch;
+    patch.color = resample(linear_from_srgb(photograph.srgb), cv::BORDER_REPLICATE);
+    fill_outside(patch.color, picture);
+    patch.mask = resample_mask(mask, resample);
+    patch.opacity = first_opacity(patch.mask, picture);
+    patch.width_mm = preparation.width_mm / kWoundShare;
+    return prepare_patch(std::move(patch), preparation, false);
+}
+
+PreparedWound prepare_patch(Patch patch, const Preparation& preparation, bool keep_depth)
+{
+    PreparedWound wound;
+    wound.patch = std::move(patch);
+    if (!keep_depth)
+        wound.patch.depth_mm = depth_map(wound.patch.color, wound.patch.mask, wound.patch.width_mm, preparation.depth);
+    const Moments moments = moments_of(wound.patch.mask);
+    wound.centroid = moments.centroid;
+    wound.area = moments.area;
+    wound.border = border_of(wound.patch.mask);
+    const double spacing = preparation.control_spacing > 0 ? preparation.control_spacing : spacing_from_curvature(wound.border, wound.centroid);
+    wound.control_points = control_points(wound.border, wound.centroid, spacing);
+    wound.flow = prepare_flow(wound.border, wound.control_points, wound.centroid);
+    return wound;
+}
+
+WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day, WarpRung rung)
+{
+    const HealingState state = healing_at(healing, day);
+    WoundDay result;
+    result.day = state.day;
+    result.unhealed_ratio = state.unhealed_ratio;
+    result.border_ratio = state.border_ratio;
+    result.recovery_ratio = state.recovery_ratio;
+    result.depth_scale = state.depth_scale;
+    result.border_warp = make_warp(wound.flow, state.border_ratio, rung);
+    result.bed_warp = state.unhealed_ratio == state.border_ratio ? result.border_warp : make_warp(wound.flow, state.unhealed_ratio, rung);
+    return result;
+}
+
+} // namespace wound
