@@ -53,7 +53,7 @@ void main()
         LutLayer layer;
         if (!end) {
             layer = layer_at(base, i, day, injury_mm, removed_mm);
-            if (layer.thickness_mm <= 0.0)
+            if (layer.thickness_mm <= 0.0 && i + 1 < parameters.layers_per_day)
                 continue;
         }
         float n_next = end ? parameters.n_below : layer.n;

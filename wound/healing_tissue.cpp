@@ -38,7 +38,7 @@ SkinLayers layers_at(const TissueDay& day, double injury_depth_mm)
         const double whole = layer.thickness_mm;
         layer.thickness_mm = whole - std::min(removed, whole);
         removed -= std::min(removed, whole);
-        if (layer.thickness_mm <= 0)
+        if (layer.thickness_mm <= 0 && i + 1 < day.intact.layers.size())
             continue;
         // Without this the colour would jump when a layer of another index is gone: over its last quarter its
         // index goes over into that of what lies beneath.
