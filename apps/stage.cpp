@@ -1,11 +1,13 @@
 #include "apps/stage.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fmt/format.h>
 
+#include "apps/bake_head.hpp"
 #include "engine/image_io.hpp"
 #include "wound/input_error.hpp"
+#include "wound/prepare.hpp"
 #include "wound/skin_match.hpp"
 #include "wound/synthetic.hpp"
 
@@ -41,6 +43,14 @@ wound::Light make_light(const LightScene& scene, const passes::FaceFrame& face)
     return light;
 }
 
+/// From face coordinates (unit: nose to crown) to those of the tissue map: ears at x = +-1, hairline and chin at y = +-1.
+cv::Point2d tissue_coordinates(const passes::FacePoint& face) { return {face.x / 0.55, face.y / (face.y > 0 ? 0.65 : 0.58)}; }
+
+wound::TissueThickness scaled(wound::TissueThickness tissue, double factor)
+{
+    return {tissue.epidermis * factor, tissue.dermis * factor, tissue.subcutis * factor};
+}
+
 wound::Photograph read_photograph(const WoundScene& scene)
 {
     if (scene.photo.empty())
@@ -60,21 +70,10 @@ wound::Photograph read_photograph(const WoundScene& scene)
 
 } // namespace
 
-std::filesystem::path default_head()
-{
-    if (const char* named = std::getenv("CICATRIX_HEAD"); named != nullptr && *named != '\0')
-        return named;
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    const char* home = std::getenv("HOME");
-    const std::filesystem::path base = cache != nullptr && *cache != '\0' ? std::filesystem::path(cache)
-                                                                          : std::filesystem::path(home != nullptr ? home : ".") / ".cache";
-    return base / "cicatrix" / "head.glb";
-}
-
 Stage::Props Stage::prepare(const Scene& scene)
 {
     Props props;
-    const std::filesystem::path file = scene.head.empty() ? default_head() : scene.head;
+    const std::filesystem::path file = scene.head.empty() ? default_head_path() : scene.head;
     if (scene.head.empty() && !std::filesystem::exists(file))
         throw cicatrix::InputError(file.string(), "the default head has not been made yet",
                                    "run ./run setup (needs the network once), or give a head of your own with --head FILE.glb");
@@ -90,11 +89,13 @@ Stage::Props Stage::prepare(const Scene& scene)
     {
         const WoundScene& wound = scene.wounds[i];
         const std::string where = wound.photo.empty() ? fmt::format("wound {}", i + 1) : wound.photo.string();
+        const double patch_mm = wound.width_mm / wound::kWoundShare;
+        const passes::Anchor anchor = passes::anchor_wound(props.head, props.face, wound.place, patch_mm, wound.roll_deg, where + ": at");
         wound::Preparation preparation;
+        preparation.where = where;
         preparation.width_mm = wound.width_mm;
-        preparation.depth_factor = wound.depth_factor;
-        wound::PreparedWound prepared = wound::prepare(read_photograph(wound), preparation, where);
-        const passes::Anchor anchor = passes::anchor_wound(props.head, props.face, wound.place, prepared.patch.width_mm, wound.roll_deg, where + ": at");
+        preparation.depth.tissue = scaled(wound::tissue_thickness(tissue_coordinates(anchor.face)), wound.depth_factor);
+        wound::PreparedWound prepared = wound::prepare(read_photograph(wound), preparation);
         prepared.patch = wound::match_to_skin(prepared.patch, passes::skin_under(props.head, skin, anchor, 128));
         props.wounds.push_back(std::move(prepared));
         props.anchors.push_back(anchor);

@@ -51,7 +51,4 @@ class Stage
     std::vector<wound::Light> lights_;
 };
 
-/// Where set-up leaves the default head.
-std::filesystem::path default_head();
-
 } // namespace app

@@ -36,8 +36,8 @@ WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, 
     shared::WoundToday params{};
     params.border = wound::pack(today.border_warp, values);
     params.bed = wound::pack(today.bed_warp, values);
-    params.bed_recovery = float(today.recovery_ratio);
-    params.border_recovery = float(today.recovery_ratio);
+    params.bed_recovery = float(today.bed_recovery);
+    params.border_recovery = float(today.border_recovery);
 
     engine::ComputePass& warp = graph.compute("wound_texture" + suffix, "wound_texture.comp");
     warp.constant("RUNG", std::uint32_t(today.border_warp.rung));
