@@ -122,9 +122,10 @@ TEST(Bust, IsCutWhereItsBaseLiesAndNeighboursShareTheCut)
             lowest = std::min(lowest, p.y);
             places.emplace(p.x, p.y);
             vertices.insert(corner.vertex);
-            if (p.y <
-                8.7) // the coordinates of the sheet are its places, but refinement rounds its outer corners
+            if (p.y < 8.7)
+            { // the coordinates of the sheet are its places, but refinement rounds its outer corners
                 EXPECT_TRUE(near({bust.uvs[corner.uv], 0.3}, p, 1e-9));
+            }
         }
     }
     EXPECT_NEAR(lowest, 5.62, 1e-4);
