@@ -104,6 +104,21 @@ TEST_F(ModelFile, RoundTripKeepsEverything)
     EXPECT_TRUE(copy.materials[1].double_sided);
 }
 
+TEST_F(ModelFile, LargeOpaqueColoursAreSavedSmallAndHardlyChanged)
+{
+    Model model = load(GltfDocument::square());
+    cv::Mat4b picture(1024, 1280);
+    for (int y = 0; y < picture.rows; ++y)
+        for (int x = 0; x < picture.cols; ++x)
+            picture(y, x) = {cv::saturate_cast<uchar>(160 + 60 * std::sin(x * 0.05)),
+                             cv::saturate_cast<uchar>(120 + 50 * std::sin(y * 0.07)), 100, 255};
+    model.materials[0].base_color = picture;
+    engine::save_model(folder_ / "copy.glb", model);
+    EXPECT_LT(std::filesystem::file_size(folder_ / "copy.glb"), 500'000u);
+    const Model copy = engine::load_model(folder_ / "copy.glb");
+    EXPECT_LE(cv::norm(copy.materials[0].base_color, picture, cv::NORM_INF), 6);
+}
+
 TEST_F(ModelFile, MissingNormalsTangentsAndCoordinatesAreComputedAndNoted)
 {
     const Model model = load(GltfDocument::square());
