@@ -97,6 +97,16 @@ TEST_F(ExecutorTest, AnUnchangedFrameRunsNothingAndStillReadsBackTheSame)
     EXPECT_EQ(first.readbacks[0].bytes, second.readbacks[0].bytes);
 }
 
+TEST_F(ExecutorTest, WhatWasForgottenRunsAgain)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    Graph graph;
+    graph.readback("filled", add_fill(graph, {}));
+    executor.run(graph);
+    executor.forget();
+    EXPECT_THAT(states(executor.run(graph)), ElementsAre("fill ran: first run"));
+}
+
 TEST_F(ExecutorTest, AChangedUniformRerunsItsPassAndWhatFollows)
 {
     Executor executor(gpu::device(), gpu::shaders());
