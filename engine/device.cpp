@@ -5,7 +5,6 @@
 #include "wound/input_error.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
@@ -205,10 +204,10 @@ void Device::create_device(const DeviceOptions& options)
     vkGetDeviceQueue(vk_device, physical.queue_family, 0, &vk_queue);
 }
 
-std::uint32_t Device::memory_type(std::uint32_t allowed_types, VkMemoryPropertyFlags required,
-                                  VkMemoryPropertyFlags preferred) const
+std::uint32_t Device::memory_type(std::uint32_t allowed_types,
+                                  std::initializer_list<VkMemoryPropertyFlags> wishes) const
 {
-    for (const VkMemoryPropertyFlags flags : std::array{required | preferred, required})
+    for (const VkMemoryPropertyFlags flags : wishes)
         for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
             if ((allowed_types >> i & 1u) && (memory.memoryTypes[i].propertyFlags & flags) == flags)
                 return i;

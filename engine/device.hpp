@@ -4,6 +4,7 @@
 #include "engine/device_choice.hpp"
 
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@ namespace engine {
 
 struct DeviceOptions
 {
-    std::string device; // part of a name or an index; empty: environment CICATRIX_DEVICE, else the best
+    std::string device;      // part of a name or an index; empty: environment CICATRIX_DEVICE, else the best
     bool validation = false; // with synchronisation validation; CICATRIX_VALIDATION=1 does the same
     std::vector<const char*> instance_extensions, device_extensions; // beyond what headless work needs
 };
@@ -38,10 +39,9 @@ class Device
     std::uint32_t queue_family() const { return physical.queue_family; }
     std::uint32_t timestamp_bits() const { return info().timestamps ? physical.timestamp_bits : 0; }
 
-    /// The memory type among `allowed_types` that has all of
-    /// `required`, and all of `preferred` where there is one.
-    std::uint32_t memory_type(std::uint32_t allowed_types, VkMemoryPropertyFlags required,
-                              VkMemoryPropertyFlags preferred) const;
+    /// The first memory type among `allowed_types` with all properties of the first wish that can be granted.
+    std::uint32_t memory_type(std::uint32_t allowed_types,
+                              std::initializer_list<VkMemoryPropertyFlags> wishes) const;
     VkMemoryPropertyFlags memory_flags(std::uint32_t type) const
     {
         return memory.memoryTypes[type].propertyFlags;

@@ -150,6 +150,13 @@ VkImage Executor::presented(std::string_view image_name) const
     return image == images.end() ? VK_NULL_HANDLE : image->second.handle();
 }
 
+void Executor::forget()
+{
+    for (auto& [name, state] : memory.images)
+        state.stamp = 0; // what the GPU may still be doing to it stays known
+    memory.passes.clear();
+}
+
 /// Makes the images this frame touches, and lets go of those that are declared differently or no longer.
 void Executor::match_images(const Graph& graph, const Plan& plan)
 {

@@ -80,7 +80,7 @@ class Executor
     VkImage presented(std::string_view image_name) const;
 
     /// Forgets what the images hold: the next frame runs everything it needs.
-    void forget() { memory = {}; }
+    void forget();
 
   private:
     struct Frame;

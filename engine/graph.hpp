@@ -65,7 +65,7 @@ class ComputePass : public Bindings
 class Draw : public Bindings
 {
   public:
-    std::string shader; // stem: "forward" means forward.vert and forward.frag
+    std::string shader;               // stem: "forward" means forward.vert and forward.frag
     const MeshBuffer* mesh = nullptr; // null: `index_count` vertices out of nothing (full-screen triangle: 3)
     std::uint32_t first_index = 0, index_count = 0; // with a mesh, index_count 0 means up to its last index
     bool cull_back_faces = true; // of a mesh; the front is counter-clockwise as seen in the picture
@@ -74,6 +74,7 @@ class Draw : public Bindings
     bool depth_write = true;
 };
 
+/// Clip space is Vulkan's: y points down, depth runs from 0 to 1.
 class RasterPass : public Bindings
 {
   public:

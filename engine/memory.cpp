@@ -24,6 +24,22 @@ VkDeviceMemory allocate(const Device& device, const VkMemoryRequirements& needs,
     return memory;
 }
 
+std::uint32_t buffer_memory_type(const Device& device, std::uint32_t types, HostAccess host)
+{
+    constexpr VkMemoryPropertyFlags visible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
+    constexpr VkMemoryPropertyFlags coherent = VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    constexpr VkMemoryPropertyFlags cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    switch (host) {
+    case HostAccess::Write:
+        return device.memory_type(types, {visible | coherent}); // every device has it
+    case HostAccess::Read:
+        return device.memory_type(types, {visible | cached | coherent, visible | cached, visible});
+    case HostAccess::None:
+        break;
+    }
+    return device.memory_type(types, {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0});
+}
+
 /// True for images that live only inside a pass: a tiler needs no memory for them.
 bool transient(VkImageUsageFlags usage)
 {
@@ -48,15 +64,7 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
     check(vkCreateBuffer(device.handle(), &info, nullptr, &buffer), fmt::format("create buffer {}", name));
     VkMemoryRequirements needs{};
     vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
-    VkMemoryPropertyFlags required = 0, preferred = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-    if (host == HostAccess::Write) {
-        required =
-            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT; // every device has it
-    } else if (host == HostAccess::Read) {
-        required = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
-        preferred = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-    }
-    const std::uint32_t type = device.memory_type(needs.memoryTypeBits, required, preferred);
+    const std::uint32_t type = buffer_memory_type(device, needs.memoryTypeBits, host);
     coherent = device.memory_flags(type) & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     memory = allocate(device, needs, type);
     check(vkBindBufferMemory(device.handle(), buffer, memory, 0), fmt::format("bind buffer {}", name));
@@ -130,9 +138,11 @@ Image::Image(const Device& device, const ImageDesc& desc, std::uint32_t mip_leve
     check(vkCreateImage(device.handle(), &info, nullptr, &image), fmt::format("create image {}", name));
     VkMemoryRequirements needs{};
     vkGetImageMemoryRequirements(device.handle(), image, &needs);
-    const VkMemoryPropertyFlags preferred{in_pass ? VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT
-                                                  : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
-    memory = allocate(device, needs, device.memory_type(needs.memoryTypeBits, 0, preferred));
+    const std::uint32_t types = needs.memoryTypeBits;
+    memory = allocate(device, needs,
+                      in_pass ? device.memory_type(types, {VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT,
+                                                           VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0})
+                              : device.memory_type(types, {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0}));
     check(vkBindImageMemory(device.handle(), image, memory, 0), fmt::format("bind image {}", name));
     const VkImageViewCreateInfo view_info{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
                                           .image = image,

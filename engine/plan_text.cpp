@@ -84,7 +84,10 @@ std::string quoted(std::string_view text)
     for (const char c : text) {
         if (c == '"' || c == '\\')
             result += '\\';
-        result += c;
+        if (c == '\n')
+            result += "\\n";
+        else
+            result += c;
     }
     return result + '"';
 }

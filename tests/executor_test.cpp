@@ -1,7 +1,5 @@
 // Frames on a device: what comes out, what is skipped, how long it took. Every test runs under validation.
 #include "engine/executor.hpp"
-#include "engine/mesh_buffer.hpp"
-#include "engine/texture.hpp"
 #include "tests/gpu.hpp"
 #include "wound/input_error.hpp"
 
@@ -97,6 +95,16 @@ TEST_F(ExecutorTest, AnUnchangedFrameRunsNothingAndStillReadsBackTheSame)
     EXPECT_EQ(first.readbacks[0].bytes, second.readbacks[0].bytes);
 }
 
+TEST_F(ExecutorTest, WhatWasForgottenRunsAgain)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    Graph graph;
+    graph.readback("filled", add_fill(graph, {}));
+    executor.run(graph);
+    executor.forget();
+    EXPECT_THAT(states(executor.run(graph)), ElementsAre("fill ran: first run"));
+}
+
 TEST_F(ExecutorTest, AChangedUniformRerunsItsPassAndWhatFollows)
 {
     Executor executor(gpu::device(), gpu::shaders());
@@ -168,135 +176,6 @@ TEST_F(ExecutorTest, AResizedImageIsMadeAnew)
         ASSERT_EQ(picture.cols, static_cast<int>(width));
         EXPECT_EQ(picture.at<cv::Vec4f>(4, picture.cols - 1)[0], 0.25f + static_cast<float>(width - 1));
     }
-}
-
-// ---- Meshes, depth, multisampling
-// --------------------------------------------------------------------------------
-
-/// A triangle over the lower left half of the picture, counter-clockwise as one sees it.
-MeshBuffer lower_left_triangle()
-{
-    std::vector<Vertex> vertices(3);
-    vertices[0] = {.position = {-1, -1, 0}, .normal = {}, .tangent = {}, .uv = {0, 0}}; // top left: y is down
-    vertices[1] = {.position = {-1, 1, 0}, .normal = {}, .tangent = {}, .uv = {0, 1}};
-    vertices[2] = {.position = {1, 1, 0}, .normal = {}, .tangent = {}, .uv = {1, 1}};
-    return MeshBuffer(gpu::device(), vertices, std::vector<std::uint32_t>{0, 1, 2}, "triangle");
-}
-
-struct MeshScene
-{
-    explicit MeshScene(std::uint32_t samples)
-    {
-        const VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
-        const ImageId color = graph.image("color", {16, 16, format, samples});
-        picture = samples > 1 ? graph.image("resolved", {16, 16, format}) : color;
-        pass = &graph.raster("mesh");
-        pass->color(color, {0, 0, 0, 1}, samples > 1 ? picture : ImageId{});
-        pass->depth(graph.image("depth", {16, 16, VK_FORMAT_D32_SFLOAT, samples}));
-        graph.readback("picture", picture);
-    }
-
-    Draw& draw(const MeshBuffer& mesh, float depth, glm::vec4 paint)
-    {
-        Draw& added = pass->draw("test_mesh");
-        added.mesh = &mesh;
-        added.uniform("place", depth);
-        added.uniform("Paint", paint);
-        return added;
-    }
-
-    cv::Mat4b run() const
-    {
-        Executor executor(gpu::device(), gpu::shaders());
-        return executor.run(graph).mat(ReadbackId{0}).clone();
-    }
-
-    Graph graph;
-    ImageId picture;
-    RasterPass* pass = nullptr;
-};
-
-TEST_F(ExecutorTest, DrawsCounterClockwiseTrianglesAndCullsTheirBacks)
-{
-    const MeshBuffer front = lower_left_triangle();
-    MeshScene scene(1);
-    scene.draw(front, 0.5f, glm::vec4(1, 0, 0, 1));
-    const cv::Mat4b picture = scene.run();
-    EXPECT_EQ(picture(15, 0), cv::Vec4b(255, 0, 0, 255));
-    EXPECT_EQ(picture(0, 15), cv::Vec4b(0, 0, 0, 255));
-
-    std::vector<Vertex> turned(3);
-    turned[0].position = {-1, -1, 0};
-    turned[1].position = {1, 1, 0};
-    turned[2].position = {-1, 1, 0};
-    const MeshBuffer back(gpu::device(), turned, std::vector<std::uint32_t>{0, 1, 2}, "back");
-    MeshScene culled(1), shown(1);
-    culled.draw(back, 0.5f, glm::vec4(1));
-    shown.draw(back, 0.5f, glm::vec4(1)).cull_back_faces = false;
-    EXPECT_EQ(culled.run()(15, 0), cv::Vec4b(0, 0, 0, 255));
-    EXPECT_EQ(shown.run()(15, 0), cv::Vec4b(255, 255, 255, 255));
-}
-
-TEST_F(ExecutorTest, TheNearerSurfaceWinsUnlessDepthIsNotTested)
-{
-    const MeshBuffer mesh = lower_left_triangle();
-    MeshScene scene(1);
-    scene.draw(mesh, 0.2f, glm::vec4(1, 0, 0, 1));
-    Draw& far = scene.draw(mesh, 0.7f, glm::vec4(0, 1, 0, 1));
-    EXPECT_EQ(scene.run()(15, 0), cv::Vec4b(255, 0, 0, 255));
-    far.depth_test = false;
-    EXPECT_EQ(scene.run()(15, 0), cv::Vec4b(0, 255, 0, 255));
-}
-
-TEST_F(ExecutorTest, DepthCanBeSampledAndReadBack)
-{
-    const MeshBuffer mesh = lower_left_triangle();
-    MeshScene scene(1);
-    scene.draw(mesh, 0.25f, glm::vec4(1));
-    const ImageId shown = scene.graph.image("shown", {16, 16, VK_FORMAT_R32_SFLOAT});
-    RasterPass& show = scene.graph.raster("show");
-    show.color(shown, {});
-    show.sample("source", scene.pass->depth_image, Sampler::NearestClamp);
-    show.uniform("Tint", glm::vec4(2.0f));
-    show.draw("test_quad").index_count = 3;
-    const ReadbackId depth = scene.graph.readback("depth", scene.pass->depth_image);
-    const ReadbackId doubled = scene.graph.readback("doubled", shown);
-    Executor executor(gpu::device(), gpu::shaders());
-    const FrameResult result = executor.run(scene.graph);
-    EXPECT_EQ(result.mat(depth).at<float>(15, 0), 0.25f);
-    EXPECT_EQ(result.mat(depth).at<float>(0, 15), 1.0f);
-    EXPECT_EQ(result.mat(doubled).at<float>(15, 0), 0.5f);
-}
-
-TEST_F(ExecutorTest, BlendsSourceAlphaOver)
-{
-    const MeshBuffer mesh = lower_left_triangle();
-    MeshScene scene(1);
-    scene.draw(mesh, 0.5f, glm::vec4(1, 0, 0, 1));
-    scene.draw(mesh, 0.5f, glm::vec4(0, 1, 0, 0.2f)).blend = true;
-    EXPECT_EQ(scene.run()(15, 0), cv::Vec4b(204, 51, 0, 255));
-}
-
-TEST_F(ExecutorTest, GivesTheShaderTheVertexAttributesItNames)
-{
-    const MeshBuffer mesh = lower_left_triangle();
-    MeshScene scene(1);
-    scene.draw(mesh, 0.5f, glm::vec4(0)).constant("show_uv", true);
-    const cv::Vec4b texel = scene.run()(12, 4);
-    EXPECT_NEAR(texel[0], 255 * 4.5 / 16, 1.0);
-    EXPECT_NEAR(texel[1], 255 * 12.5 / 16, 1.0);
-}
-
-TEST_F(ExecutorTest, MultisamplingSmoothsTheEdgeAndOnlyTheEdge)
-{
-    const MeshBuffer mesh = lower_left_triangle();
-    MeshScene scene(4);
-    scene.draw(mesh, 0.5f, glm::vec4(1));
-    const cv::Mat4b picture = scene.run();
-    EXPECT_EQ(picture(15, 0)[0], 255);
-    EXPECT_EQ(picture(0, 15)[0], 0);
-    EXPECT_GT(picture(8, 8)[0], 50);
-    EXPECT_LT(picture(8, 8)[0], 205);
 }
 
 // ---- Time, frames in flight, mistakes
@@ -402,18 +281,6 @@ TEST_F(ExecutorTest, AnImageTooLargeForTheDeviceIsTheUsersMistakeAndHarmsNothing
     EXPECT_EQ(frame(8), 0.25f);
     EXPECT_THROW(frame(1u << 20), cicatrix::InputError);
     EXPECT_EQ(frame(8), 0.25f);
-}
-
-TEST_F(ExecutorTest, TwoExecutorsGiveTheSameBits)
-{
-    const auto bytes = [] {
-        const MeshBuffer mesh = lower_left_triangle();
-        MeshScene scene(4);
-        scene.draw(mesh, 0.5f, glm::vec4(0)).constant("show_uv", true);
-        Executor executor(gpu::device(), gpu::shaders());
-        return executor.run(scene.graph).readbacks[0].bytes;
-    };
-    EXPECT_EQ(bytes(), bytes());
 }
 
 TEST_F(ExecutorTest, AFrameThatNeedsNothingIsNoError)
