@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wound/color.hpp"
+#include "wound/glints.hpp"
 #include "wound/healthy_skin.hpp"
 #include "wound/membrane.hpp"
 #include "wound/smooth.hpp"
@@ -71,48 +72,6 @@ Source checked(const Patch& patch)
     const cv::Rect box = cv::boundingRect(cv::Mat1b(source.coverage > .5f));
     source.reach = .4f * source.radius + .1f * float(box.width + box.height);
     return source;
-}
-
-/// Takes most of the mirror images of lamps out: small, bright, colourless spots. They would not follow the
-/// renderer's light.
-void flatten_glints(cv::Mat3f& color, float radius)
-{
-    const int n = color.rows;
-    cv::Mat1f least(n, n);
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) {
-            const Vec3f& c = color(y, x);
-            least(y, x) = std::min({c[0], c[1], c[2]});
-        }
-    const int width = 2 * std::clamp(int(.08f * radius), 2, 15) + 1;
-    cv::Mat1f without_spots;
-    cv::morphologyEx(least, without_spots, cv::MORPH_OPEN, cv::Mat1b::ones(width, width));
-    cv::Mat1f glint(n, n);
-    bool any = false;
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) {
-            const Vec3f& c = color(y, x);
-            const float most = std::max({c[0], c[1], c[2]}), saturation = (most - least(y, x)) / most;
-            glint(y, x) =
-                smooth(.07f, .22f, least(y, x) - without_spots(y, x)) * (1 - smooth(.35f, .6f, saturation));
-            any |= glint(y, x) > 0;
-        }
-    if (!any)
-        return;
-    cv::dilate(glint, glint, cv::Mat1b::ones(3, 3));
-    cv::Mat3f dull(n, n);
-    cv::Mat1f weight(n, n);
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) {
-            weight(y, x) = 1.001f - glint(y, x);
-            dull(y, x) = color(y, x) * weight(y, x);
-        }
-    cv::boxFilter(dull, dull, -1, {2 * width + 1, 2 * width + 1});
-    cv::boxFilter(weight, weight, -1, {2 * width + 1, 2 * width + 1});
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x)
-            if (glint(y, x) > 0)
-                color(y, x) += (dull(y, x) * (1 / weight(y, x)) - color(y, x)) * (.85f * glint(y, x));
 }
 
 /// `cast` without what is within `tolerance` of 0, and 70 % of the rest, at most .5: white balance is taken
@@ -268,7 +227,7 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
     const int n = source.color.rows;
     Patch result{cv::Mat3f(n, n), cv::Mat1f(n, n), patch.mask, patch.depth_mm, patch.width_mm};
 
-    flatten_glints(source.color, source.radius);
+    flatten_glints(source.color, source.coverage, source.radius);
     cv::Mat3f log_photo;
     cv::log(source.color, log_photo);
 
