@@ -212,6 +212,37 @@ float present(const cv::Mat1f& valid_around, int x, int y)
     return smooth(0, .05f * float(n), float(to_frame)) * smooth(.6f, 1, valid_around(y, x));
 }
 
+template <class Map>
+Map enlarged(const Map& map, int n)
+{
+    Map result;
+    cv::resize(map, result, {n, n}, 0, 0, cv::INTER_LINEAR);
+    return result;
+}
+
+/// What to add to the photo's log colour to give healthy skin the face's own pores, hairs and stubble, which
+/// the coarse grid does not hold, in place of the photo's; 0 where the face is unknown.
+cv::Mat3f detail_change(const cv::Mat3f& face_skin, const Face& face, const cv::Mat3f& log_photo,
+                        const cv::Mat3f& log_coarse)
+{
+    const int n = log_photo.rows;
+    cv::Mat3f change(n, n, Vec3f::all(0)), skin;
+    if (face_skin.empty())
+        return change;
+    cv::resize(face_skin, skin, {n, n}, 0, 0, face_skin.rows > n ? cv::INTER_AREA : cv::INTER_LINEAR);
+    const cv::Mat3f smooth_face = enlarged(face.log_color, n), smooth_photo = enlarged(log_coarse, n);
+    cv::Mat1f known;
+    cv::Mat1b(face.weight > 0).convertTo(known, CV_32F, 1 / 255.);
+    known = enlarged(known, n);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            for (int k = 0; k < 3 && known(y, x) > .99f && is_finite(skin(y, x)); ++k) {
+                const float own = std::log(std::clamp(skin(y, x)[k], darkest, 1.f)) - smooth_face(y, x)[k];
+                change(y, x)[k] = std::clamp(own, -1.5f, .5f) - (log_photo(y, x)[k] - smooth_photo(y, x)[k]);
+            }
+    return change;
+}
+
 cv::Mat1f blurred(const cv::Mat1f& map, float sigma)
 {
     cv::Mat1f result;
@@ -241,12 +272,10 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
     if (skin.found)
         bed = bed_gain(skin.log_color, blue_of_blood(log_coarse, covered)) + Vec3f::all(lift(skin, face));
 
-    cv::Mat3f gain;
-    cv::Mat1f outwardness, rawness, foreignness;
-    cv::resize(skin.rawness, rawness, {n, n}, 0, 0, cv::INTER_LINEAR);
-    cv::resize(skin.foreignness, foreignness, {n, n}, 0, 0, cv::INTER_LINEAR);
-    cv::resize(skin_gain(log_coarse, skin, face), gain, {n, n}, 0, 0, cv::INTER_LINEAR);
-    cv::resize(skin.outwardness, outwardness, {n, n}, 0, 0, cv::INTER_LINEAR);
+    const cv::Mat3f gain = enlarged(skin_gain(log_coarse, skin, face), n);
+    const cv::Mat3f detail = detail_change(face_skin, face, log_photo, log_coarse);
+    const cv::Mat1f outwardness = enlarged(skin.outwardness, n), health = enlarged(skin.health, n);
+    const cv::Mat1f rawness = enlarged(skin.rawness, n), foreignness = enlarged(skin.foreignness, n);
     const cv::Mat1f border = blurred(source.coverage, std::max(.8f, .012f * source.radius));
     const cv::Mat1f valid_around = blurred(source.valid, 2);
 
@@ -256,7 +285,7 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
             const float around = skin.found ? 1 - smooth(.40f, .90f, outwardness(y, x)) : 0;
             result.opacity(y, x) = std::max(in_bed, around) * present(valid_around, x, y);
             const float raw = in_bed * rawness(y, x) + (1 - in_bed) * foreignness(y, x);
-            log_photo(y, x) += gain(y, x) * (1 - raw) + bed * raw;
+            log_photo(y, x) += (gain(y, x) + detail(y, x) * health(y, x)) * (1 - raw) + bed * raw;
         }
     cv::exp(log_photo, result.color);
     cv::min(result.color, cv::Scalar::all(1), result.color);
