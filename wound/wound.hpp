@@ -1,35 +1,16 @@
 // A wound from photograph to any day: what is prepared once, and what it is on a given day. Plain C++, double precision.
 //
 //   Photograph -> prepare() -> PreparedWound -> match_to_skin() -> wound_at(day) -> WoundDay
-//
-// Patch coordinates: the square patch is [-1,1] x [-1,1], x right, y down, 0 the patch's middle; texel (i,j) of an n x n map has
-// its centre at ((i + .5) 2/n - 1, (j + .5) 2/n - 1). The wound's centroid is placed at the patch's middle.
+// Patch coordinates are defined in wound/patch.hpp.
 #pragma once
-#include <array>
-#include <optional>
 #include <opencv2/core.hpp>
 #include <vector>
 
 #include "wound/healing.hpp"
+#include "wound/patch.hpp"
 #include "wound/warp.hpp"
 
 namespace wound {
-
-struct Photograph
-{
-    cv::Mat3b srgb;    // RGB order
-    cv::Mat1b mask;    // 255 in the wound; empty: segment
-};
-
-/// The wound at day 0 as square maps of equal size (default 512 x 512) over `width_mm` of skin.
-struct Patch
-{
-    cv::Mat3f color;    // linear Rec. 709 reflectance 0..1
-    cv::Mat1f opacity;  // 0 the face's own skin .. 1 the patch's colour; falls to 0 well inside the patch's edge
-    cv::Mat1f mask;     // antialiased coverage of the wound (inside its border) 0..1
-    cv::Mat1f depth_mm; // tissue missing; negative where the rim is swollen
-    double width_mm = 0; // of the whole patch, on the head
-};
 
 struct PreparedWound
 {
@@ -48,6 +29,8 @@ struct WoundDay
     double unhealed_ratio = 1; // area of the open bed / initial area
     double border_ratio = 1;   // area inside the outer border / initial area; equals unhealed_ratio for pure contraction
     double recovery_ratio = 0; // 1 - unhealed_ratio, clamped to 0..1
+    double bed_recovery = 0;    // r of eq. (4) in the open bed
+    double border_recovery = 0; // r of eq. (4) on new epithelium and in the rim
     double depth_scale = 1;    // sqrt(unhealed_ratio), at most 1
     Warp border_warp, bed_warp; // backward maps: today's patch coordinates -> day 0's
 };
