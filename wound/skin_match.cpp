@@ -227,8 +227,8 @@ cv::Mat3f detail_change(const cv::Mat3f& face_skin, const Face& face, const cv::
 {
     const int n = log_photo.rows;
     cv::Mat3f change(n, n, Vec3f::all(0)), skin;
-    if (face_skin.empty())
-        return change;
+    if (face_skin.rows < n / 2)
+        return change; // too coarse to show any
     cv::resize(face_skin, skin, {n, n}, 0, 0, face_skin.rows > n ? cv::INTER_AREA : cv::INTER_LINEAR);
     const cv::Mat3f smooth_face = enlarged(face.log_color, n), smooth_photo = enlarged(log_coarse, n);
     cv::Mat1f known;
