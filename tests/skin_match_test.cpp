@@ -160,6 +160,25 @@ TEST(SkinMatch, HasNoStepAlongTheFeather)
     EXPECT_LT(steepest_color, .008f); // the pores of the photo's own skin make steps of .004
 }
 
+TEST(SkinMatch, KeepsTheFacesOwnPoresOnHealthySkin)
+{
+    cv::Mat3f face = skin_of(light_skin, 5);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            face(y, x) *= (x / 2 + y / 2) % 2 ? 1.1f : .9f; // stubble of two texels
+    const Patch result = match_to_skin(wound_in(skin_of(yellow_skin)), face);
+    double along = 0, own = 0;
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            if (from_middle(x, y) > 1.35f * radius && from_middle(x, y) < 1.6f * radius) {
+                const float sign = (x / 2 + y / 2) % 2 ? 1.f : -1.f;
+                along += sign * composite(result, face, x, y)[1];
+                own += sign * face(y, x)[1];
+            }
+    EXPECT_GT(along / own, .75);
+    EXPECT_LT(along / own, 1.1);
+}
+
 TEST(SkinMatch, KeepsTheBedAsRedOnDarkSkinAsOnLight)
 {
     const Patch patch = wound_in(skin_of(light_skin));

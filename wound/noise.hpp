@@ -62,7 +62,7 @@ class Noise
     }
 
   private:
-    static constexpr int cells = 32, texels_per_cell = 16, size = cells * texels_per_cell;
+    static constexpr int cells = 32, texels_per_cell = 8, size = cells * texels_per_cell;
     std::vector<float> table_; // size x size
 };
 

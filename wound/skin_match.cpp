@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wound/color.hpp"
+#include "wound/glints.hpp"
 #include "wound/healthy_skin.hpp"
 #include "wound/membrane.hpp"
 #include "wound/smooth.hpp"
@@ -71,48 +72,6 @@ Source checked(const Patch& patch)
     const cv::Rect box = cv::boundingRect(cv::Mat1b(source.coverage > .5f));
     source.reach = .4f * source.radius + .1f * float(box.width + box.height);
     return source;
-}
-
-/// Takes most of the mirror images of lamps out: small, bright, colourless spots. They would not follow the
-/// renderer's light.
-void flatten_glints(cv::Mat3f& color, float radius)
-{
-    const int n = color.rows;
-    cv::Mat1f least(n, n);
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) {
-            const Vec3f& c = color(y, x);
-            least(y, x) = std::min({c[0], c[1], c[2]});
-        }
-    const int width = 2 * std::clamp(int(.08f * radius), 2, 15) + 1;
-    cv::Mat1f without_spots;
-    cv::morphologyEx(least, without_spots, cv::MORPH_OPEN, cv::Mat1b::ones(width, width));
-    cv::Mat1f glint(n, n);
-    bool any = false;
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) {
-            const Vec3f& c = color(y, x);
-            const float most = std::max({c[0], c[1], c[2]}), saturation = (most - least(y, x)) / most;
-            glint(y, x) =
-                smooth(.07f, .22f, least(y, x) - without_spots(y, x)) * (1 - smooth(.35f, .6f, saturation));
-            any |= glint(y, x) > 0;
-        }
-    if (!any)
-        return;
-    cv::dilate(glint, glint, cv::Mat1b::ones(3, 3));
-    cv::Mat3f dull(n, n);
-    cv::Mat1f weight(n, n);
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) {
-            weight(y, x) = 1.001f - glint(y, x);
-            dull(y, x) = color(y, x) * weight(y, x);
-        }
-    cv::boxFilter(dull, dull, -1, {2 * width + 1, 2 * width + 1});
-    cv::boxFilter(weight, weight, -1, {2 * width + 1, 2 * width + 1});
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x)
-            if (glint(y, x) > 0)
-                color(y, x) += (dull(y, x) * (1 / weight(y, x)) - color(y, x)) * (.85f * glint(y, x));
 }
 
 /// `cast` without what is within `tolerance` of 0, and 70 % of the rest, at most .5: white balance is taken
@@ -253,6 +212,37 @@ float present(const cv::Mat1f& valid_around, int x, int y)
     return smooth(0, .05f * float(n), float(to_frame)) * smooth(.6f, 1, valid_around(y, x));
 }
 
+template <class Map>
+Map enlarged(const Map& map, int n)
+{
+    Map result;
+    cv::resize(map, result, {n, n}, 0, 0, cv::INTER_LINEAR);
+    return result;
+}
+
+/// What to add to the photo's log colour to give healthy skin the face's own pores, hairs and stubble, which
+/// the coarse grid does not hold, in place of the photo's; 0 where the face is unknown.
+cv::Mat3f detail_change(const cv::Mat3f& face_skin, const Face& face, const cv::Mat3f& log_photo,
+                        const cv::Mat3f& log_coarse)
+{
+    const int n = log_photo.rows;
+    cv::Mat3f change(n, n, Vec3f::all(0)), skin;
+    if (face_skin.rows < n / 2)
+        return change; // too coarse to show any
+    cv::resize(face_skin, skin, {n, n}, 0, 0, face_skin.rows > n ? cv::INTER_AREA : cv::INTER_LINEAR);
+    const cv::Mat3f smooth_face = enlarged(face.log_color, n), smooth_photo = enlarged(log_coarse, n);
+    cv::Mat1f known;
+    cv::Mat1b(face.weight > 0).convertTo(known, CV_32F, 1 / 255.);
+    known = enlarged(known, n);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            for (int k = 0; k < 3 && known(y, x) > .99f && is_finite(skin(y, x)); ++k) {
+                const float own = std::log(std::clamp(skin(y, x)[k], darkest, 1.f)) - smooth_face(y, x)[k];
+                change(y, x)[k] = std::clamp(own, -1.5f, .5f) - (log_photo(y, x)[k] - smooth_photo(y, x)[k]);
+            }
+    return change;
+}
+
 cv::Mat1f blurred(const cv::Mat1f& map, float sigma)
 {
     cv::Mat1f result;
@@ -268,7 +258,7 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
     const int n = source.color.rows;
     Patch result{cv::Mat3f(n, n), cv::Mat1f(n, n), patch.mask, patch.depth_mm, patch.width_mm};
 
-    flatten_glints(source.color, source.radius);
+    flatten_glints(source.color, source.coverage, source.radius);
     cv::Mat3f log_photo;
     cv::log(source.color, log_photo);
 
@@ -282,12 +272,10 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
     if (skin.found)
         bed = bed_gain(skin.log_color, blue_of_blood(log_coarse, covered)) + Vec3f::all(lift(skin, face));
 
-    cv::Mat3f gain;
-    cv::Mat1f outwardness, rawness, foreignness;
-    cv::resize(skin.rawness, rawness, {n, n}, 0, 0, cv::INTER_LINEAR);
-    cv::resize(skin.foreignness, foreignness, {n, n}, 0, 0, cv::INTER_LINEAR);
-    cv::resize(skin_gain(log_coarse, skin, face), gain, {n, n}, 0, 0, cv::INTER_LINEAR);
-    cv::resize(skin.outwardness, outwardness, {n, n}, 0, 0, cv::INTER_LINEAR);
+    const cv::Mat3f gain = enlarged(skin_gain(log_coarse, skin, face), n);
+    const cv::Mat3f detail = detail_change(face_skin, face, log_photo, log_coarse);
+    const cv::Mat1f outwardness = enlarged(skin.outwardness, n), health = enlarged(skin.health, n);
+    const cv::Mat1f rawness = enlarged(skin.rawness, n), foreignness = enlarged(skin.foreignness, n);
     const cv::Mat1f border = blurred(source.coverage, std::max(.8f, .012f * source.radius));
     const cv::Mat1f valid_around = blurred(source.valid, 2);
 
@@ -297,7 +285,7 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
             const float around = skin.found ? 1 - smooth(.40f, .90f, outwardness(y, x)) : 0;
             result.opacity(y, x) = std::max(in_bed, around) * present(valid_around, x, y);
             const float raw = in_bed * rawness(y, x) + (1 - in_bed) * foreignness(y, x);
-            log_photo(y, x) += gain(y, x) * (1 - raw) + bed * raw;
+            log_photo(y, x) += (gain(y, x) + detail(y, x) * health(y, x)) * (1 - raw) + bed * raw;
         }
     cv::exp(log_photo, result.color);
     cv::min(result.color, cv::Scalar::all(1), result.color);

@@ -11,9 +11,10 @@
 namespace wound {
 
 /// `patch.opacity`: 0 where the photograph has no data (or empty: data everywhere). `face_skin`: the face's
-/// own linear reflectance in patch coordinates, square, of any size; NaN where the projection misses the
-/// face; empty where unknown, which leaves the photo's skin tone. The result's color and opacity are free of
-/// NaN whatever comes in; mask and depth are as given.
+/// own linear reflectance in patch coordinates, square, of any size (its pores and stubble are kept from half
+/// the patch's size on); NaN where the projection misses the face; empty where unknown, which leaves the
+/// photo's skin tone. The result's color and opacity are free of NaN whatever comes in; mask and depth are as
+/// given.
 Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin);
 
 } // namespace wound

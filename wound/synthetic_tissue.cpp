@@ -244,10 +244,10 @@ void TissuePainter::fray_border(Tissue& tissue, const Place& place) const
     const float here = smooth(-.12f, .2f, along);
     const float stain = smooth(1.3f, -.2f, ragged) * here, crust = smooth(.35f, -.35f, ragged) * here;
     const float lumps = noise(p, 1.1f, 42, 3);
-    tissue.reflectance = through(tissue.reflectance, mix(oxygenated, dried, .35f), 1.1f * stain);
+    tissue.reflectance = through(tissue.reflectance, mix(oxygenated, dried, .35f), 1.0f * stain);
     const Vec3f colour =
         mix(Vec3f(.036f, .012f, .010f), Vec3f(.17f, .036f, .020f), std::clamp(.35f + .9f * lumps, 0.f, 1.f));
-    tissue.reflectance = mix(tissue.reflectance, colour, .85f * crust);
+    tissue.reflectance = mix(tissue.reflectance, colour, .72f * crust);
     tissue.height_mm += .3f * crust * (1 + 1.2f * lumps);
     tissue.wetness *= 1 - .8f * crust;
 }
@@ -267,7 +267,7 @@ Tissue TissuePainter::bed(const Place& place) const
 
     Tissue tissue;
     const float own = fraction(coarse.id * 2654435761u) - .5f;
-    const float blood = std::clamp(3.0f + 2.1f * place.slow[supply] + 1.3f * patches + .35f * own * knobs +
+    const float blood = std::clamp(3.0f + 1.7f * place.slow[supply] + 1.0f * patches + .35f * own * knobs +
                                        2.0f * (.60f - bump) + .9f * std::exp(-place.inside_mm / 1.2f),
                                    1.1f, 5.5f);
     tissue.reflectance = through(pale_dermis, mix(oxygenated, deoxygenated, .75f * short_of_oxygen), blood) *
@@ -298,8 +298,8 @@ void TissuePainter::lay_fibrin(Tissue& tissue, const Place& place, float bump) c
     const float sheet = smooth(-.16f, .26f, over + .42f * (.55f - bump) + .30f * mottle);
     const float thickness = std::clamp(.30f + 1.1f * over + .9f * mottle, 0.f, 1.f);
     const Vec3f colour =
-        mix(Vec3f(.40f, .20f, .075f), Vec3f(.60f, .42f, .205f), thickness) * (1 + .10f * noise(p, 1.8f, 66));
-    const float cover = std::max(sheet * (.42f + .45f * thickness), .5f * strand);
+        mix(Vec3f(.40f, .20f, .075f), Vec3f(.56f, .38f, .19f), thickness) * (1 + .10f * noise(p, 1.8f, 66));
+    const float cover = std::max(sheet * (.36f + .44f * thickness), .5f * strand);
     tissue.reflectance = mix(tissue.reflectance, colour, cover);
     tissue.height_mm += cover * (.18f - .20f * bump + .12f * thickness);
 }
