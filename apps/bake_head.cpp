@@ -32,7 +32,7 @@ constexpr MorphWeight face[] = {
     {"nose-trans-horiz-in", 0.12},
     {"mouth-scale-horiz-decr", 0.25},
     {"mouth-upperlip-height-max", 0.35},
-    {"mouth-lowerlip-height-max", 0.25},
+    {"mouth-lowerlip-height-max", 0.1},
     {"mouth-laugh-lines-in", 0.25},
     {"l-eye-height2-min", 0.25},
     {"l-eye-bag-out", 0.3},

@@ -8,7 +8,7 @@
 namespace app {
 
 /// Goes up whenever the baked head changes; part of the cached file's name. Read by the script `run`, too.
-constexpr int baked_head_version = 1;
+constexpr int baked_head_version = 2;
 
 /// Where `run` puts the default head: cicatrix/head-vN.glb in XDG_CACHE_HOME, else in ~/.cache. It need not
 /// be there.

@@ -12,6 +12,8 @@ namespace {
 constexpr float pore_spacing = 1.1f;   // mm
 constexpr float furrow_spacing = 1.7f; // mm
 constexpr float modulation = 0.03f;    // of the colour, root mean square
+constexpr float usual_shade =
+    0.4f; // of Detail, its mean on a cheek: pores must not darken the skin as a whole
 
 std::uint32_t hash(int x, int y, int z)
 {
@@ -69,6 +71,11 @@ float smooth_step(float low, float high, float x)
     return t * t * (3 - 2 * t);
 }
 
+glm::vec3 cheek_of(const SkinPlaces& places)
+{
+    return places.nose_tip + glm::vec3(34, 2, -22);
+} // its mirror image, too
+
 /// How coarse the relief is at a place: strongest on nose and inner cheeks, fine on neck and scalp, almost
 /// none on the lips.
 struct Relief
@@ -78,9 +85,8 @@ struct Relief
 
 Relief relief_at(glm::vec3 p, const SkinPlaces& places, float lip)
 {
-    const glm::vec3 cheek = places.nose_tip + glm::vec3(0, 2, -22);
     const float nose = bump(p, places.nose_tip, 22);
-    const float cheeks = bump({std::abs(p.x), p.y, p.z}, cheek + glm::vec3(34, 0, 0), 26);
+    const float cheeks = bump({std::abs(p.x), p.y, p.z}, cheek_of(places), 26);
     const float chin = bump(p, places.mouth + glm::vec3(0, -28, -4), 22);
     const float face =
         smooth_step(-95, -45, p.z) * smooth_step(-120, -85, p.y) * (1 - smooth_step(55, 95, p.y));
@@ -131,6 +137,30 @@ glm::vec3 place(const cv::Mat3f& positions, int y, int x)
     return {p[0], p[1], p[2]};
 }
 
+/// Shifts the whole painting so that the cheeks have the mean colour measured on people.
+cv::Mat3b match_cheeks(const cv::Mat3b& painted, const SkinPlaces& places)
+{
+    // Xiao et al. 2017, Skin Research and Technology 23: Caucasians, cheek, spectrophotometer, CIELAB.
+    const cv::Scalar measured(59.6, 11.8, 14.6);
+    constexpr float radius = 15; // mm
+    cv::Mat3f lab;
+    painted.convertTo(lab, CV_32F, 1.0 / 255);
+    cv::cvtColor(lab, lab, cv::COLOR_RGB2Lab);
+    cv::Mat1b cheeks(painted.size());
+    for (int y = 0; y < painted.rows; ++y)
+        for (int x = 0; x < painted.cols; ++x) {
+            const glm::vec3 p = place(places.position, y, x);
+            cheeks(y, x) = glm::distance({std::abs(p.x), p.y, p.z}, cheek_of(places)) < radius ? 255 : 0;
+        }
+    if (cv::countNonZero(cheeks) == 0)
+        return painted;
+    lab += measured - cv::mean(lab, cheeks);
+    cv::cvtColor(lab, lab, cv::COLOR_Lab2RGB);
+    cv::Mat3b matched;
+    lab.convertTo(matched, CV_8U, 255);
+    return matched;
+}
+
 /// Slopes of the height field, with the size of each texel on the head taken into account.
 cv::Mat3b normals_of(const cv::Mat1f& height, const cv::Mat3f& positions)
 {
@@ -158,8 +188,9 @@ cv::Mat3b normals_of(const cv::Mat1f& height, const cv::Mat3f& positions)
 
 } // namespace
 
-SkinPictures detail_skin(const cv::Mat3b& painted, const SkinPlaces& places)
+SkinPictures detail_skin(const cv::Mat3b& painting, const SkinPlaces& places)
 {
+    const cv::Mat3b painted = match_cheeks(painting, places);
     // Small dark marks of the painting (stubble, pores) are pits, too.
     cv::Mat1b gray;
     cv::cvtColor(painted, gray, cv::COLOR_RGB2GRAY);
@@ -178,7 +209,7 @@ SkinPictures detail_skin(const cv::Mat3b& painted, const SkinPlaces& places)
                 const float lip = lip_at(paint, p, places);
                 const Detail detail = detail_at(p, relief_at(p, places, lip));
                 height(y, x) = detail.height + 0.004f * std::clamp(marks(y, x), -20.0f, 10.0f);
-                const float light = 1 - 2 * modulation * detail.shade + 0.3f * modulation * detail.blush;
+                const float light = 1 + modulation * (2 * (usual_shade - detail.shade) + 0.3f * detail.blush);
                 const glm::vec3 tint =
                     light * glm::vec3(1, 1 - modulation * detail.blush, 1 - 0.8f * modulation * detail.blush);
                 cv::Vec4b& color = pictures.color(y, x);

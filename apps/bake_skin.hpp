@@ -20,7 +20,7 @@ struct SkinPictures
     cv::Mat3b normal; // RGB, tangent space
 };
 
-/// `painted`: RGB, sRGB, of the size of the places.
-SkinPictures detail_skin(const cv::Mat3b& painted, const SkinPlaces& places);
+/// `painting`: RGB, sRGB, of the size of the places. Its overall tone is moved to that measured on cheeks.
+SkinPictures detail_skin(const cv::Mat3b& painting, const SkinPlaces& places);
 
 } // namespace app
