@@ -61,8 +61,8 @@ struct Scene
     std::string tissue = "table1"; // a preset, or a tissue file
     wound::Rung reflectance_model = wound::Rung::TwoStream;
     passes::Shading shading = corrected_shading();
-    std::vector<LightScene> lights{{{-38, 28}, 0.9, false, true, {1.0, 0.97, 0.93}, 1.0},
-                                   {{55, 8}, 1.2, false, true, {0.80, 0.88, 1.0}, 0.25}};
+    std::vector<LightScene> lights{{{-38, 28}, 0.9, false, true, {1.0, 0.96, 0.91}, 1.25},
+                                   {{60, 10}, 1.2, false, true, {0.86, 0.92, 1.0}, 0.4}};
     CameraScene camera;
     std::array<std::uint32_t, 2> size{1280, 720};
     std::uint32_t samples = 1; // 1 or 4

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t lut_rows = 64;
 
-glm::dvec3 face_middle(const passes::FaceFrame& face) { return face.nose_tip + face.unit_m * glm::dvec3(0, 0.1, -0.45); }
+glm::dvec3 face_middle(const passes::FaceFrame& face) { return face.nose_tip + face.unit_m * glm::dvec3(0, 0.13, -0.45); }
 /// Crown to chin, about; the object of the paper's set-up.
 double head_height(const passes::FaceFrame& face) { return 1.65 * face.unit_m; }
 
@@ -138,7 +138,7 @@ std::vector<wound::WoundDay> Stage::wounds_on(double day) const
 
 passes::Camera Stage::camera() const
 {
-    const double half_height = 1.06 * props_.face.unit_m; // from the neck to the crown
+    const double half_height = 0.98 * props_.face.unit_m; // from the neck to the crown
     const double distance = scene_.camera.distance_m > 0 ? scene_.camera.distance_m
                                                          : half_height / std::tan(glm::radians(scene_.camera.fov_deg) / 2);
     const glm::dvec3 target = face_middle(props_.face);

@@ -7,6 +7,7 @@
 
 #include "passes/shading.hpp"
 #include "shaders/shared/part.h"
+#include "wound/healthy_skin.hpp"
 
 namespace passes {
 namespace {
@@ -24,8 +25,10 @@ WoundUniform wound_frames(std::span<const PlacedWound> wounds)
     for (std::size_t i = 0; i < wounds.size(); ++i)
     {
         const Anchor& anchor = wounds[i].anchor;
+        const cv::Vec3f blood = wound::blood_absorbance;
         uniform.frames[i] = {to_vec3(anchor.centre), float(anchor.half_width_m), to_vec3(anchor.right), float(Anchor::reach),
-                             to_vec3(anchor.down),   float(wounds[i].day),       to_vec3(anchor.normal), wounds[i].axes};
+                             to_vec3(anchor.down),   float(wounds[i].day),       to_vec3(anchor.normal), wounds[i].axes,
+                             glm::exp(-float(wounds[i].pink) * shared::vec3(blood[0], blood[1], blood[2]))};
     }
     return uniform;
 }
@@ -94,6 +97,7 @@ engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, con
     pass.depth(graph.image("depth", {target.width, target.height, VK_FORMAT_D32_SFLOAT, target.samples}));
     pass.every_frame();
 
+    pass.constant("LIGHTS", std::uint32_t(input.lights.size()));
     pass.constant("LAMBERT", shading.lambert);
     pass.constant("TRANSLUCENCY", shading.translucency);
     pass.constant("WARD", shading.ward);

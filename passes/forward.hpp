@@ -42,6 +42,7 @@ struct PlacedWound
     ReflectanceLut lut;
     shared::LutAxes axes; // of the lut
     double day = 0;
+    double pink = 0;      // blood over the skin of newly closed wound, units of wound::blood_absorbance
 };
 
 struct ForwardInput

@@ -17,7 +17,7 @@ FrameImages add_frame(engine::Graph& graph, const FrameInput& input)
         const std::string suffix = i == 0 ? "" : fmt::format(" {}", i + 1);
         const WoundTexture texture = add_wound_texture(graph, suffix, wound.maps, input.today[i]);
         const ReflectanceLut lut = add_reflectance_lut(graph, "reflectance_lut" + suffix, wound.tissue, input.reflectance);
-        placed.push_back({wound.anchor, texture, lut, wound.tissue.parameters.axes, input.today[i].day});
+        placed.push_back({wound.anchor, texture, lut, wound.tissue.parameters.axes, input.today[i].day, input.today[i].phase.pink});
         images.wounds.push_back(texture);
     }
     ForwardInput forward{input.head, placed, input.lights, {}, {}};
@@ -27,7 +27,7 @@ FrameImages add_frame(engine::Graph& graph, const FrameInput& input)
         forward.shadow_depth = add_shadow(graph, *forward.shadow, *input.head.mesh, input.head.casters);
     const engine::ImageId radiance = add_forward(graph, forward, make_view(input.camera, input.head, double(input.width) / input.height),
                                                  input.shading, {input.width, input.height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
-    images.picture = add_tonemap(graph, radiance, input.exposure);
+    images.picture = add_tonemap(graph, radiance, input.exposure, Highlights::SoftShoulder, studio);
     return images;
 }
 

@@ -4,7 +4,8 @@
 
 namespace passes {
 
-engine::ImageId add_tonemap(engine::Graph& graph, engine::ImageId hdr, float exposure, Highlights highlights)
+engine::ImageId add_tonemap(engine::Graph& graph, engine::ImageId hdr, float exposure, Highlights highlights,
+                            const Backdrop& backdrop)
 {
     const engine::ImageDesc size = graph.images[hdr.index].desc;
     const engine::ImageId encoded =
@@ -12,7 +13,12 @@ engine::ImageId add_tonemap(engine::Graph& graph, engine::ImageId hdr, float exp
     engine::ComputePass& pass = graph.compute("tonemap", "tonemap.comp");
     pass.sample("hdr", hdr, engine::Sampler::NearestClamp);
     pass.store("encoded", encoded);
-    pass.uniform("ExposureBlock", std::exp2(exposure));
+    struct
+    {
+        float exposure;
+        glm::vec3 top, bottom;
+    } const block{std::exp2(exposure), backdrop.top, backdrop.bottom};
+    pass.uniform("ExposureBlock", block);
     pass.constant("shoulder", highlights == Highlights::SoftShoulder);
     pass.dispatch(size.width, size.height);
     return encoded;

@@ -1,6 +1,7 @@
 // The picture as the screen and the file want it: linear light to 8-bit sRGB, encoded by our own shader.
 #pragma once
 #include <cstdint>
+#include <glm/glm.hpp>
 
 #include "engine/graph.hpp"
 
@@ -12,9 +13,16 @@ enum class Highlights : std::uint8_t
     Clip,
 };
 
+/// What stands behind the head, where the radiance's alpha is 0: a vertical gradient, linear, not exposed.
+struct Backdrop
+{
+    glm::vec3 top{0}, bottom{0};
+};
+inline constexpr Backdrop studio{{0.045f, 0.05f, 0.058f}, {0.17f, 0.18f, 0.195f}};
+
 /// Adds one pass. `hdr` is linear Rec. 709; the result, of the same size, is RGBA8 UNORM holding sRGB codes,
 /// opaque. `exposure` in stops: each doubles the light. No dither, so that equal frames give equal files.
 engine::ImageId add_tonemap(engine::Graph& graph, engine::ImageId hdr, float exposure,
-                            Highlights highlights = Highlights::SoftShoulder);
+                            Highlights highlights = Highlights::SoftShoulder, const Backdrop& backdrop = {});
 
 } // namespace passes

@@ -21,6 +21,7 @@ WoundMaps upload_wound(const engine::Device& device, const wound::Patch& patch)
     WoundMaps maps;
     maps.color = std::make_unique<engine::Texture>(device, half_color, engine::Encoding::Linear, true, "day 0 color");
     maps.shape = std::make_unique<engine::Texture>(device, half_shape, engine::Encoding::Linear, true, "day 0 shape");
+    maps.bed_luminance = wound::bed_luminance(patch);
     maps.width_mm = patch.width_mm;
     maps.size = patch.color.cols;
     return maps;
@@ -39,9 +40,12 @@ WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, 
     params.bed_recovery = float(today.bed_recovery);
     params.border_recovery = float(today.border_recovery);
 
+    params.phase = {float(today.phase.clot), float(today.phase.fibrin), float(today.phase.granulation), float(today.phase.rim), float(maps.bed_luminance)};
+
     engine::ComputePass& warp = graph.compute("wound_texture" + suffix, "wound_texture.comp");
     warp.constant("RUNG", std::uint32_t(today.border_warp.rung));
     warp.constant("BED_APART", today.unhealed_ratio != today.border_ratio);
+    warp.constant("PHASES", today.in_phases);
     warp.sample("day0_color", graph.import("day0_color" + suffix, *maps.color), engine::Sampler::LinearClampMips);
     warp.sample("day0_shape", graph.import("day0_shape" + suffix, *maps.shape), engine::Sampler::LinearClampMips);
     warp.store("color", texture.color);

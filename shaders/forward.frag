@@ -20,6 +20,7 @@ layout(constant_id = 6) const bool AMBIENT = true; // ambient light, dimmed by o
 layout(constant_id = 7) const uint WARD_MODEL = WARD_BOUNDED;
 layout(constant_id = 8) const uint TRANSLUCENCY_MODEL = TRANSLUCENCY_BOUNDED;
 layout(constant_id = 9) const uint BLEND_MODEL = BLEND_CORRECTED;
+layout(constant_id = 10) const uint LIGHTS = 1;
 
 layout(location = 0) in vec3 v_position;
 layout(location = 1) in vec3 v_normal;
@@ -74,7 +75,7 @@ void main()
     const vec3 local_viewer = to_viewer * frame;
     vec3 diffuse = AMBIENT ? params.ambient * skin.occlusion : vec3(0); // still to be coloured by C
     vec3 mirrored = vec3(0);
-    for (uint i = 0; i < lighting.count; ++i)
+    for (uint i = 0; i < LIGHTS; ++i)
     {
         LightSample light = sample_light(lighting.light[i], v_position);
         if (SHADOW && i == 0)

@@ -10,6 +10,7 @@
 layout(constant_id = 2) const bool TRANSLUCENCY = true;
 layout(constant_id = 5) const bool SHADOW = true;
 layout(constant_id = 8) const uint TRANSLUCENCY_MODEL = TRANSLUCENCY_BOUNDED;
+layout(constant_id = 10) const uint LIGHTS = 1;
 
 layout(scalar, binding = 0) uniform View_ { View view; };
 layout(scalar, binding = 2) uniform Shading_ { ShadingParams shading; };
@@ -36,7 +37,7 @@ void main()
     v_uv = uv;
     v_subsurface = vec3(0);
     if (TRANSLUCENCY)
-        for (uint i = 0; i < lighting.count; ++i)
+        for (uint i = 0; i < LIGHTS; ++i)
             v_subsurface += subsurface_diffuse(TRANSLUCENCY_MODEL, shading, lighting.light[i], position);
     v_shadow_place = vec4(0);
     if (SHADOW)

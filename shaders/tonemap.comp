@@ -8,15 +8,17 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool shoulder = true;
 layout(binding = 0) uniform sampler2D hdr;
 layout(binding = 1, rgba8) uniform writeonly image2D encoded;
-layout(binding = 2, scalar) uniform ExposureBlock { float exposure_factor; }; // multiplies linear light
+layout(binding = 2, scalar) uniform ExposureBlock { float exposure_factor; vec3 top, bottom; }; // multiplies linear light; the backdrop, encoded as it is
 
 void main()
 {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, imageSize(encoded))))
         return;
-    vec3 linear = finite_radiance(texelFetch(hdr, texel, 0).rgb) * exposure_factor;
+    vec4 radiance = texelFetch(hdr, texel, 0);
+    vec3 linear = finite_radiance(radiance.rgb) * exposure_factor;
     if (shoulder)
         linear = soft_shoulder(linear);
+    linear += (1.0 - clamp(radiance.a, 0.0, 1.0)) * mix(top, bottom, (float(texel.y) + 0.5) / float(imageSize(encoded).y));
     imageStore(encoded, texel, vec4(srgb_from_linear(min(linear, 1.0)), 1.0));
 }

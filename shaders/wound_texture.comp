@@ -2,10 +2,12 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // The wound's day-0 maps as they lie today: Choi & Chin 2014, section 3. Each texel asks the backward warp where its skin lay.
+#include "lib/phases.glsl"
 #include "shared/wound.h"
 
 layout(constant_id = 0) const uint RUNG = 1;          // wound::WarpRung
 layout(constant_id = 1) const bool BED_APART = false; // the bed closes inside the border by a warp of its own
+layout(constant_id = 2) const bool PHASES = false;    // the bed passes through clot, fibrin and granulation
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D day0_color; // rgb reflectance, a opacity
@@ -32,13 +34,18 @@ void main()
 
     const vec2 from_border = warp_backward(RUNG, today.border, p);
     const float border_mip = mip_of(p, from_border, today.border.center);
-    const vec4 day0 = textureLod(day0_color, from_border * 0.5 + 0.5, border_mip);
-    vec2 border_shape = textureLod(day0_shape, from_border * 0.5 + 0.5, border_mip).rg;
+    vec4 day0 = textureLod(day0_color, from_border * 0.5 + 0.5, border_mip);
+    const vec2 border_shape = textureLod(day0_shape, from_border * 0.5 + 0.5, border_mip).rg;
     vec2 bed_shape = border_shape;
     if (BED_APART)
     {
         const vec2 from_bed = warp_backward(RUNG, today.bed, p);
         bed_shape = textureLod(day0_shape, from_bed * 0.5 + 0.5, mip_of(p, from_bed, today.bed.center)).rg;
+    }
+    if (PHASES)
+    {
+        day0.rgb = mix(day0.rgb, tinted(day0.rgb, today.phase), bed_shape.g);
+        day0.a *= mix(today.phase.rim, 1, border_shape.g);
     }
     imageStore(color, texel, day0);
     imageStore(state, texel, vec4(bed_shape.r, mix(today.border_recovery, today.bed_recovery, bed_shape.g), bed_shape.g, border_shape.g));

@@ -163,9 +163,12 @@ WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day
     result.bed_recovery = result.border_recovery = state.recovery_ratio; // the paper's: one r for all of the wound
     if (healing.model == HealingModel::face)
     {
-        // The open bed stays a wound until new epithelium covers it; that is pink, and still a tenth from skin when the wound closes.
-        result.bed_recovery = 0.35 * state.recovery_ratio;
-        result.border_recovery = 0.9 * std::pow(state.recovery_ratio, 0.7);
+        // The open bed stays a wound until new epithelium covers it; that is pink, and half way to
+        // skin when the wound closes.
+        result.bed_recovery = 0.3 * state.recovery_ratio;
+        result.border_recovery = 0.5 * state.recovery_ratio;
+        result.in_phases = true;
+        result.phase = phase_at(day, closure_day(healing.curve));
     }
     result.border_warp = make_warp(wound.flow, state.border_ratio, rung);
     result.bed_warp = state.unhealed_ratio == state.border_ratio ? result.border_warp : make_warp(wound.flow, state.unhealed_ratio, rung);

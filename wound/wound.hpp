@@ -8,6 +8,7 @@
 
 #include "wound/healing.hpp"
 #include "wound/patch.hpp"
+#include "wound/phases.hpp"
 #include "wound/warp.hpp"
 
 namespace wound {
@@ -32,6 +33,8 @@ struct WoundDay
     double bed_recovery = 0;    // r of eq. (4) in the open bed
     double border_recovery = 0; // r of eq. (4) on new epithelium and in the rim
     double depth_scale = 1;    // sqrt(unhealed_ratio), at most 1
+    bool in_phases = false;     // the bed's colour passes through the phases of healing, not only through eq. (4)
+    Phase phase;
     Warp border_warp, bed_warp; // backward maps: today's patch coordinates -> day 0's
 };
 

@@ -13,12 +13,11 @@ struct SkinPoint
     float tautness;  // 0 porous skin .. 1 new epithelium
 };
 
-// A patch is drawn much smaller than it is stored when the whole face is seen, and graph images have no mip levels: four
-// bilinear taps over the pixel's footprint keep a film from sparkling.
-vec4 patch_sample(sampler2D map, vec2 uv, vec2 dx, vec2 dy)
+// A patch is drawn much smaller than it is stored when the whole face is seen, and graph images have no mip levels: two
+// bilinear taps across the pixel's footprint keep a film from sparkling.
+vec4 patch_sample(sampler2D map, vec2 uv, vec2 footprint)
 {
-    return 0.25 * (textureLod(map, uv + 0.125 * dx + 0.375 * dy, 0) + textureLod(map, uv - 0.375 * dx + 0.125 * dy, 0) +
-                   textureLod(map, uv + 0.375 * dx - 0.125 * dy, 0) + textureLod(map, uv - 0.125 * dx - 0.375 * dy, 0));
+    return 0.5 * (textureLod(map, uv + footprint, 0) + textureLod(map, uv - footprint, 0));
 }
 
 // `geometric`: the interpolated normal, which decides what the projection reaches; steep flanks fade out rather than smear.
@@ -28,22 +27,25 @@ void add_wound(uint blend_model, WoundFrame w, sampler2D color_map, sampler2D st
     const vec3 d = (position - w.centre) / w.half_width;
     const vec2 q = vec2(dot(d, w.right), dot(d, w.down));
     const vec2 uv = 0.5 * q + 0.5;
-    const vec2 dx = dFdx(uv), dy = dFdy(uv); // before any branch: derivatives need the whole quad
+    const vec2 footprint = 0.25 * (dFdx(uv) + dFdy(uv)); // before any branch: derivatives need the whole quad
     const float facing = smoothstep(0.15, 0.45, dot(geometric, w.normal)) * (1 - smoothstep(0.8, 1.0, abs(dot(d, w.normal)) / w.reach));
     if (facing <= 0 || any(greaterThan(abs(q), vec2(1))))
         return;
-    const vec4 color = patch_sample(color_map, uv, dx, dy);
+    const vec4 color = patch_sample(color_map, uv, footprint);
     const float opacity = color.a * facing;
     if (opacity <= 0)
         return;
-    const vec4 state = patch_sample(state_map, uv, dx, dy);
-    const vec4 relief = patch_sample(relief_map, uv, dx, dy);
+    const vec4 state = textureLod(state_map, uv, 0);
+    const vec4 relief = patch_sample(relief_map, uv, footprint);
 
     const vec3 reflectance = textureLod(lut, lut_uv(w.lut, state.r, w.day, vec2(textureSize(lut, 0))), 0).rgb;
-    skin.albedo = mix(skin.albedo, recovering_color(blend_model, color.rgb, reflectance, skin.albedo, state.g), opacity);
+    // Between the bed and the outer border lies new epithelium: thin, so that the blood beneath shows. Its W is that, not the photo's bed.
+    const float ring_share = clamp(state.a - state.b, 0, 1);
+    const vec3 wound = mix(color.rgb, skin.albedo * w.new_skin, ring_share);
+    skin.albedo = mix(skin.albedo, recovering_color(blend_model, wound, reflectance, skin.albedo, state.g), opacity);
 
     const float fresh = 1 - clamp(state.g, 0, 1); // how much of the injury is still to be seen
-    const float bed = state.b * opacity, ring = max(state.a - state.b, 0) * opacity;
+    const float bed = state.b * opacity, ring = ring_share * opacity;
     // The bed has no pores; new epithelium has few. The hollow bends the normal: height is -depth.
     const vec3 smoothed = mix(skin.normal, geometric, fresh * clamp(0.85 * bed + 0.6 * ring, 0, 1));
     skin.normal = normalize(smoothed + facing * (relief.x * w.right + relief.y * w.down));

@@ -30,6 +30,7 @@ struct WoundFrame
     float day;
     vec3 normal;      // unit
     LutAxes lut;      // of the wound's reflectance table
+    vec3 new_skin;    // the colour of new epithelium over that of skin
 };
 
 #ifdef __cplusplus

@@ -7,6 +7,14 @@
 namespace shared {
 #endif
 
+/// What has become of the bed since the photograph; wound::Phase.
+struct BedPhase
+{
+    float clot, fibrin, granulation; // shares of the bed, 0..1
+    float rim;                       // factor on the opacity outside the border
+    float bed_luminance;             // median of the day-0 bed
+};
+
 /// The wound today, for wound_texture.comp.
 struct WoundToday
 {
@@ -14,6 +22,7 @@ struct WoundToday
     WarpHeader bed;         // the same for the open bed
     float bed_recovery;     // r of eq. (4) in the open bed
     float border_recovery;  // r of eq. (4) elsewhere: on new epithelium and in the rim
+    BedPhase phase;
 };
 
 /// For wound_relief.comp.
