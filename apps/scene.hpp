@@ -19,7 +19,7 @@ struct WoundScene
     std::filesystem::path photo; // empty: the default wound, generated from `kind` and `seed`
     std::filesystem::path mask;  // empty: segmented
     std::string kind = "abrasion";
-    std::uint32_t seed = 1;
+    std::uint32_t seed = 3;
     passes::Place place = std::string("cheek");
     double width_mm = 30;    // of the wound along its longer side
     double roll_deg = 0;     // counter-clockwise as the viewer sees it

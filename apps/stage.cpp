@@ -96,7 +96,7 @@ Stage::Props Stage::prepare(const Scene& scene)
         preparation.width_mm = wound.width_mm;
         preparation.depth.tissue = scaled(wound::tissue_thickness(tissue_coordinates(anchor.face)), wound.depth_factor);
         wound::PreparedWound prepared = wound::prepare(read_photograph(wound), preparation);
-        prepared.patch = wound::match_to_skin(prepared.patch, passes::skin_under(props.head, skin, anchor, 128));
+        prepared.patch = wound::match_to_skin(prepared.patch, passes::skin_under(props.head, skin, anchor, preparation.patch_size));
         props.wounds.push_back(std::move(prepared));
         props.anchors.push_back(anchor);
     }

@@ -122,7 +122,7 @@ cv::Mat1f depth_map(const cv::Mat3f& color, const cv::Mat1f& mask, double width_
     });
     cv::Mat1f weight;
     inside.convertTo(weight, CV_32F, 1 / 255.);
-    depth = blur_inside(depth, weight, std::max(.06 * extent, 1.));
+    depth = blur_inside(depth, weight, std::max(.14 * extent, 1.)); // clot and fibrin lie on one floor
 
     const double wall_mm = std::min(.8, .08 * extent * texel_mm); // an excision's wall, nearly upright
     const double rim_mm = std::max(.12 * extent * texel_mm, 2 * texel_mm);
