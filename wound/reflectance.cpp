@@ -92,7 +92,7 @@ Element layer_element(const LayerOptics& layer, Rung rung)
         return slab(s * backward_fraction(layer.g), a, d);
     if (rung == Rung::Calibrated) {
         // Fitted to the photon walk on 48 stacks like skin; its error on 48 others is in docs/optics.md.
-        constexpr double c1 = .6552, c2 = 2.1554, c3 = 1.9578, c4 = .8886;
+        constexpr double c1 = .6433, c2 = 2.2131, c3 = 1.9179, c4 = .7631;
         return a + s > 0 ? slab(c1 * s * (s / (s + c2 * a)), a * (c3 - c4 * (a / (a + s))), d)
                          : slab(0, 0, d);
     }

@@ -103,8 +103,8 @@ Element tissue_slab(int model, vec3 sigma_a, vec3 sigma_s_reduced, float g, floa
         return slab(sigma_s_reduced * backward_fraction(g), sigma_a, thickness_mm);
     if (model == CALIBRATED) {
         // Fitted to the photon walk (docs/optics.md).
-        vec3 S = 0.6552 * sigma_s_reduced * (sigma_s_reduced / max(sigma_s_reduced + 2.1554 * sigma_a, vec3(1e-30)));
-        vec3 K = sigma_a * (1.9578 - 0.8886 * (sigma_a / max(sigma_a + sigma_s_reduced, vec3(1e-30))));
+        vec3 S = 0.6433 * sigma_s_reduced * (sigma_s_reduced / max(sigma_s_reduced + 2.2131 * sigma_a, vec3(1e-30)));
+        vec3 K = sigma_a * (1.9179 - 0.7631 * (sigma_a / max(sigma_a + sigma_s_reduced, vec3(1e-30))));
         return slab(S, K, thickness_mm);
     }
     // Eddington's S turns negative where absorption rules; there nothing scatters back.
