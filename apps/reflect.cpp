@@ -47,7 +47,8 @@ void reflect(const ReflectOptions& options, std::ostream& out)
         RungOptions channel = options.rung_options;
         if (channel.progress)
             channel.progress = [&, c](double share) {
-                options.rung_options.progress((static_cast<double>(c) + share) / static_cast<double>(tissue.channels()));
+                options.rung_options.progress((static_cast<double>(c) + share) /
+                                              static_cast<double>(tissue.channels()));
             };
         responses.push_back(reflectance(tissue.channel(c), options.rung, channel));
     }
@@ -55,7 +56,8 @@ void reflect(const ReflectOptions& options, std::ostream& out)
     json["model"] = name(options.rung);
     json["incidence"] = options.rung_options.incidence == Incidence::Normal ? "normal" : "diffuse";
     json["r"] = per_channel(responses, [](const Response& x) { return x.r; });
-    json["r_without_specular"] = per_channel(responses, [](const Response& x) { return x.r_without_specular; });
+    json["r_without_specular"] =
+        per_channel(responses, [](const Response& x) { return x.r_without_specular; });
     json["t"] = per_channel(responses, [](const Response& x) { return x.t; });
     json["absorbed"] = ordered_json::array();
     for (std::size_t l = 0; l < tissue.layers.size(); ++l)
@@ -70,40 +72,51 @@ namespace {
 
 void add_light_options(CLI::App& command, ReflectOptions& options)
 {
-    command.add_option_function<std::string>(
-        "--incidence",
-        [&options](const std::string& text) {
-            options.rung_options.incidence = text == "normal" ? Incidence::Normal : Incidence::Diffuse;
-        },
-        "Light that arrives: normal or diffuse (default)")
+    command
+        .add_option_function<std::string>(
+            "--incidence",
+            [&options](const std::string& text) {
+                options.rung_options.incidence = text == "normal" ? Incidence::Normal : Incidence::Diffuse;
+            },
+            "Light that arrives: normal or diffuse (default)")
         ->check(CLI::IsMember({"normal", "diffuse"}));
-    command.add_option_function<std::string>(
-        "--fresnel",
-        [&options](const std::string& text) {
-            options.rung_options.fresnel = text == "exact" ? DiffuseFresnel::Exact : DiffuseFresnel::Polynomial;
-        },
-        "Diffuse Fresnel reflectance of the analytic models: exact (default) or polynomial")
+    command
+        .add_option_function<std::string>(
+            "--fresnel",
+            [&options](const std::string& text) {
+                options.rung_options.fresnel =
+                    text == "exact" ? DiffuseFresnel::Exact : DiffuseFresnel::Polynomial;
+            },
+            "Diffuse Fresnel reflectance of the analytic models: exact (default) or polynomial")
         ->check(CLI::IsMember({"exact", "polynomial"}));
     RungOptions& rung = options.rung_options;
-    command.add_option("--photons", rung.photons, "Photons of monte-carlo")->check(CLI::Range(1.0, 1e11))->capture_default_str();
+    command.add_option("--photons", rung.photons, "Photons of monte-carlo")
+        ->check(CLI::Range(1.0, 1e11))
+        ->capture_default_str();
     command.add_option("--seed", rung.seed, "Seed of monte-carlo")->capture_default_str();
-    command.add_option("--threads", rung.threads, "Threads of monte-carlo; 0: one per core")->check(CLI::Range(0, 1024));
-    command.add_option("--angles", rung.angles, "Angles per panel of adding-doubling")->check(CLI::Range(2, 64))->capture_default_str();
+    command.add_option("--threads", rung.threads, "Threads of monte-carlo; 0: one per core")
+        ->check(CLI::Range(0, 1024));
+    command.add_option("--angles", rung.angles, "Angles per panel of adding-doubling")
+        ->check(CLI::Range(2, 64))
+        ->capture_default_str();
 }
 
 } // namespace
 
 void add_reflect_command(CLI::App& app)
 {
-    CLI::App* command = app.add_subcommand("reflect", "What layered tissue reflects, transmits and absorbs, as JSON");
+    CLI::App* command =
+        app.add_subcommand("reflect", "What layered tissue reflects, transmits and absorbs, as JSON");
     auto options = std::make_shared<ReflectOptions>();
     auto check = std::make_shared<bool>(false);
     command->add_option("tissue", options->tissue, "Tissue file (JSON)");
     command->add_option_function<std::string>(
         "--model", [options](const std::string& text) { options->rung = rung_named(text); },
-        "published, clamped, exponential, two-stream-paper, two-stream (default), adding-doubling, monte-carlo");
+        "published, clamped, exponential, two-stream-paper, two-stream (default), adding-doubling, "
+        "monte-carlo");
     add_light_options(*command, *options);
-    command->add_flag("--check", *check, "Compare monte-carlo and adding-doubling with published values and each other");
+    command->add_flag("--check", *check,
+                      "Compare monte-carlo and adding-doubling with published values and each other");
     command->callback([options, check] {
         if (isatty(STDERR_FILENO))
             options->rung_options.progress = [](double share) {

@@ -1,4 +1,5 @@
-// `cicatrix reflect TISSUE.json`: what layered tissue reflects, transmits and absorbs, by any rung of the ladder.
+// `cicatrix reflect TISSUE.json`: what layered tissue reflects, transmits and absorbs, by any rung of the
+// ladder.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -18,8 +19,8 @@ struct ReflectOptions
 /// Writes one JSON object.
 void reflect(const ReflectOptions& options, std::ostream& out);
 
-/// Compares Monte Carlo and adding-doubling with published values and with each other on twelve random stacks.
-/// Writes a table; false when a value is out of its tolerance.
+/// Compares Monte Carlo and adding-doubling with published values and with each other on twelve random
+/// stacks. Writes a table; false when a value is out of its tolerance.
 bool check_reflectance(const wound::RungOptions& options, std::ostream& out);
 
 void add_reflect_command(CLI::App& app);

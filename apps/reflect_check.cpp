@@ -33,31 +33,48 @@ std::vector<Case> published_cases()
     const Stack three{{{.1, 1, .9, 1.37, 1}, {.1, 1, 0, 1.37, 1}, {.2, .3, .7, 1.37, 2}}, 1, 1};
     std::vector<Case> cases = {
         {"van de Hulst 1980, slab", {{{1, 2.25, .75, 1, .2}}, 1, 1}, Incidence::Normal, .09739, .66096, 2e-4},
-        {"Giovanelli 1955, half space", {{{1, 9, 0, 1.5, infinity}}, 1, 1}, Incidence::Normal, .2600, 0, 2e-4},
+        {"Giovanelli 1955, half space",
+         {{{1, 9, 0, 1.5, infinity}}, 1, 1},
+         Incidence::Normal,
+         .2600,
+         0,
+         2e-4},
         {"Prahl 1995, three layers", three, Incidence::Normal, .26224, .09605, 2e-4},
         {"Prahl 1995, a .9 b 1", plate(.9, 1, 0, 1), Incidence::Normal, .26741, .59163, 2e-4},
         {"Prahl 1995, a .9 b 1", plate(.9, 1, 0, 1), Incidence::Diffuse, .35271, .47475, 1e-3},
         {"Prahl 1995, a .99 b 10 g .76", plate(.99, 10, .76, 1.4), Incidence::Normal, .38425, .31760, 2e-4},
         {"Prahl 1995, a .99 b 10 g .76", plate(.99, 10, .76, 1.4), Incidence::Diffuse, .43099, .28563, 1e-3},
     };
-    // Prahl's half spaces rest on few angles at the critical angle: ours differs from the middle one by 2.1e-4.
+    // Prahl's half spaces rest on few angles at the critical angle: ours differs from the middle one
+    // by 2.1e-4.
     for (const auto& [albedo, r] : {std::pair{.8, .18095}, {.95, .38711}, {.99, .63156}})
         cases.push_back({fmt::format("Prahl 1995, half space a {}", albedo),
-                         {{{1 - albedo, albedo, 0, 1.4, infinity}}, 1, 1}, Incidence::Normal, r, 0, 2.2e-4});
+                         {{{1 - albedo, albedo, 0, 1.4, infinity}}, 1, 1},
+                         Incidence::Normal,
+                         r,
+                         0,
+                         2.2e-4});
     return cases;
 }
 
 std::vector<Case> random_cases()
 {
     std::mt19937 random(12);
-    const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    const auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution(low, high)(random);
+    };
     std::vector<Case> cases;
     for (int i = 0; i < 12; ++i) {
         Stack stack{.layers = {}, .n_above = 1, .n_below = uniform(1, 1.5)};
         for (int l = i % 4; l >= 0; --l)
-            stack.layers.push_back({uniform(.01, 2), uniform(.1, 8), uniform(-.3, .9), uniform(1.3, 1.6), uniform(.05, 2)});
-        cases.push_back({fmt::format("random stack {}, {} layers", i, i % 4 + 1), stack,
-                         i % 2 ? Incidence::Diffuse : Incidence::Normal, {}, {}, 0});
+            stack.layers.push_back(
+                {uniform(.01, 2), uniform(.1, 8), uniform(-.3, .9), uniform(1.3, 1.6), uniform(.05, 2)});
+        cases.push_back({fmt::format("random stack {}, {} layers", i, i % 4 + 1),
+                         stack,
+                         i % 2 ? Incidence::Diffuse : Incidence::Normal,
+                         {},
+                         {},
+                         0});
     }
     return cases;
 }
@@ -67,8 +84,8 @@ std::vector<Case> random_cases()
 bool check_reflectance(const RungOptions& options, std::ostream& out)
 {
     bool good = true;
-    fmt::print(out, "{:34} {:8} {:>8} {:>9} {:>9} {:>9} {:>8} {:>6}\n", "case", "light", "quantity", "published",
-               "adding", "walk", "+-", "z");
+    fmt::print(out, "{:34} {:8} {:>8} {:>9} {:>9} {:>9} {:>8} {:>6}\n", "case", "light", "quantity",
+               "published", "adding", "walk", "+-", "z");
     std::vector<Case> cases = published_cases();
     for (Case& c : random_cases())
         cases.push_back(std::move(c));
@@ -77,8 +94,10 @@ bool check_reflectance(const RungOptions& options, std::ostream& out)
         light.incidence = c.incidence;
         const Response adding = reflectance(c.stack, Rung::AddingDoubling, light);
         const Response walk = reflectance(c.stack, Rung::MonteCarlo, light);
-        const double t_error = std::sqrt(walk.t * (1 - walk.t) / static_cast<double>(options.photons)); // upper bound
-        const auto line = [&](std::string_view quantity, std::optional<double> known, double a, double w, double error) {
+        const double t_error =
+            std::sqrt(walk.t * (1 - walk.t) / static_cast<double>(options.photons)); // upper bound
+        const auto line = [&](std::string_view quantity, std::optional<double> known, double a, double w,
+                              double error) {
             // The published digits are themselves rounded; without one the two rungs must agree.
             const double z = (w - known.value_or(a)) / std::max(error, 1e-5);
             const bool passed = known ? std::abs(a - *known) <= c.tolerance && std::abs(z) <= 4

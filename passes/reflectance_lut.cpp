@@ -3,25 +3,40 @@
 #include <algorithm>
 #include <cassert>
 
+#include "wound/spectrum.hpp"
+
 namespace passes {
 
 namespace {
 
-shared::vec3 rgb(const std::vector<double>& channels)
+// Three channels of a list; past its end the last one is repeated, where the weights are zero.
+shared::vec3 three(std::span<const double> channels, std::size_t band)
 {
-    assert(channels.size() == 3);
-    return {static_cast<float>(channels[0]), static_cast<float>(channels[1]),
-            static_cast<float>(channels[2])};
+    const auto at = [&](std::size_t i) {
+        return static_cast<float>(channels[std::min(i, channels.size() - 1)]);
+    };
+    return {at(3 * band), at(3 * band + 1), at(3 * band + 2)};
 }
 
-shared::LutLayer shader_layer(const wound::Layer& layer)
+std::vector<shared::mat3> band_weights(std::size_t channels)
+{
+    const std::span<const wound::Color> weights = wound::channel_weights(channels);
+    assert(!weights.empty());
+    std::vector<shared::mat3> bands((channels + 2) / 3, shared::mat3(0.0f));
+    for (std::size_t i = 0; i < channels; ++i) // a column holds what one channel adds to R, G and B
+        for (int c = 0; c < 3; ++c)
+            bands[i / 3][static_cast<int>(i % 3)][c] = static_cast<float>(weights[i][c]);
+    return bands;
+}
+
+void append(LutTissue& tissue, const wound::Layer& layer)
 {
     constexpr double thickest_mm = 1e9; // an infinite layer would give inf / inf
-    return {.sigma_a = rgb(layer.sigma_a),
-            .sigma_s_reduced = rgb(layer.sigma_s_reduced),
-            .g = static_cast<float>(layer.g),
-            .n = static_cast<float>(layer.n),
-            .thickness_mm = static_cast<float>(std::min(layer.thickness_mm, thickest_mm))};
+    tissue.layers.push_back({.g = static_cast<float>(layer.g),
+                             .n = static_cast<float>(layer.n),
+                             .thickness_mm = static_cast<float>(std::min(layer.thickness_mm, thickest_mm))});
+    for (std::size_t band = 0; band < tissue.weights.size(); ++band)
+        tissue.bands.push_back({three(layer.sigma_a, band), three(layer.sigma_s_reduced, band)});
 }
 
 } // namespace
@@ -35,12 +50,13 @@ LutTissue lut_tissue(std::span<const wound::TissueDay> rows, double last_day)
 {
     assert(!rows.empty());
     LutTissue result;
+    result.weights = band_weights(rows.front().intact.channels());
     for (const wound::TissueDay& day : rows) {
         assert(day.intact.layers.size() == rows.front().intact.layers.size());
-        result.layers.push_back(shader_layer(day.cover));
-        result.layers.push_back(shader_layer(day.regrown));
+        append(result, day.cover);
+        append(result, day.regrown);
         for (const wound::Layer& layer : day.intact.layers)
-            result.layers.push_back(shader_layer(layer));
+            append(result, layer);
         result.days.push_back({static_cast<float>(day.missing_ratio), static_cast<float>(day.regrown_ratio)});
     }
     const wound::SkinLayers& skin = rows.front().intact;
@@ -48,7 +64,8 @@ LutTissue lut_tissue(std::span<const wound::TissueDay> rows, double last_day)
                                   .last_day = static_cast<float>(last_day)},
                          .n_above = static_cast<float>(skin.n_above),
                          .n_below = static_cast<float>(skin.n_below),
-                         .layers_per_day = static_cast<shared::uint>(skin.layers.size() + 2)};
+                         .layers_per_day = static_cast<shared::uint>(skin.layers.size() + 2),
+                         .bands = static_cast<shared::uint>(result.weights.size())};
     return result;
 }
 
@@ -63,6 +80,8 @@ ReflectanceLut add_reflectance_lut(engine::Graph& graph, std::string_view name, 
     pass.constant("MODEL", static_cast<std::int32_t>(rung));
     pass.uniform("Parameters", tissue.parameters);
     pass.buffer("Layers", std::span(tissue.layers));
+    pass.buffer("Bands", std::span(tissue.bands));
+    pass.buffer("Weights", std::span(tissue.weights));
     pass.buffer("Days", std::span(tissue.days));
     pass.store("lut_out", lut);
     pass.dispatch(width, height);

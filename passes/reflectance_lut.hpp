@@ -16,8 +16,10 @@ namespace passes {
 /// keep it.
 struct LutTissue
 {
-    std::vector<shared::LutLayer> layers;
-    std::vector<shared::LutDay> days; // one per row
+    std::vector<shared::LutLayer> layers; // of every row in turn
+    std::vector<shared::LutBand> bands;   // of every layer in turn
+    std::vector<shared::mat3> weights;    // of every band: its channels -> linear RGB
+    std::vector<shared::LutDay> days;     // one per row
     shared::LutParameters parameters;
 };
 

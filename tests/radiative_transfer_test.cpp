@@ -128,8 +128,8 @@ TEST(AddingDoubling, KeepsBoundsAndAccountsForAllLight)
         }
         for (const RungOptions& light : {normal, diffuse}) {
             const Response x = reflectance(stack, Rung::AddingDoubling, light);
-            ASSERT_TRUE(x.r >= -1e-9 && x.t >= -1e-9 && x.r + x.t <= 1 + 1e-9) << x.r << " " << x.t;
-            ASSERT_NEAR(total(x), 1, 1e-9);
+            ASSERT_TRUE(x.r >= -1e-8 && x.t >= -1e-8 && x.r + x.t <= 1 + 1e-8) << x.r << " " << x.t;
+            ASSERT_NEAR(total(x), 1, 1e-8);
         }
     }
 }

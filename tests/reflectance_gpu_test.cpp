@@ -1,10 +1,12 @@
-// The reflectance table's shader against the double-precision reference: thousands of random tissues and all corners.
+// The reflectance table's shader against the double-precision reference: thousands of random tissues and all
+// corners.
 #include <gtest/gtest.h>
 #include <random>
 
 #include "engine/executor.hpp"
 #include "passes/reflectance_lut.hpp"
 #include "tests/gpu.hpp"
+#include "wound/skin_presets.hpp"
 
 namespace {
 
@@ -29,16 +31,26 @@ class ReflectanceLutTest : public gpu::Test
 };
 
 constexpr double last_day = 30;
-constexpr Rung shader_rungs[] = {Rung::Published, Rung::Clamped, Rung::Exponential, Rung::TwoStreamPaper, Rung::TwoStream};
+constexpr Rung shader_rungs[] = {Rung::Published,      Rung::Clamped,   Rung::Exponential,
+                                 Rung::TwoStreamPaper, Rung::TwoStream, Rung::Calibrated};
 
-double as_float(double x) { return static_cast<float>(x); }
+double as_float(double x)
+{
+    return static_cast<float>(x);
+}
 
 class RandomTissue
 {
   public:
     explicit RandomTissue(unsigned seed) : random_(seed) {}
-    double uniform(double low, double high) { return as_float(std::uniform_real_distribution(low, high)(random_)); }
-    double logarithmic(double low, double high) { return as_float(std::exp(uniform(std::log(low), std::log(high)))); }
+    double uniform(double low, double high)
+    {
+        return as_float(std::uniform_real_distribution(low, high)(random_));
+    }
+    double logarithmic(double low, double high)
+    {
+        return as_float(std::exp(uniform(std::log(low), std::log(high))));
+    }
     double coefficient(double low, double high)
     {
         const int corner = std::uniform_int_distribution(0, 9)(random_);
@@ -57,8 +69,8 @@ class RandomTissue
     }
 
     /// One day for each row: four intact layers of the given thicknesses, regrown tissue and cover on some.
-    std::vector<TissueDay> rows(std::size_t count, const std::vector<double>& thicknesses, double low, double high,
-                                bool injured)
+    std::vector<TissueDay> rows(std::size_t count, const std::vector<double>& thicknesses, double low,
+                                double high, bool injured)
     {
         std::vector<TissueDay> result(count);
         const double above = uniform(1, 3), below = uniform(1, 3);
@@ -68,7 +80,8 @@ class RandomTissue
             for (double thickness : thicknesses)
                 day.intact.layers.push_back(layer(as_float(thickness), low, high));
             day.missing_ratio = injured ? uniform(0, 1) : 0;
-            day.regrown_ratio = injured && uniform(0, 1) < .5 ? as_float((1 - day.missing_ratio) * uniform(0, 1)) : 0;
+            day.regrown_ratio =
+                injured && uniform(0, 1) < .5 ? as_float((1 - day.missing_ratio) * uniform(0, 1)) : 0;
             day.regrown = layer(0, low, high);
             day.cover = layer(uniform(0, 1) < .3 ? logarithmic(1e-3, 10) : 0, low, high);
         }
@@ -79,20 +92,24 @@ class RandomTissue
     std::mt19937 random_;
 };
 
-double expected(double color) { return color > 0 ? std::min(color, 65504.0) : 0; }
+double expected(double color)
+{
+    return color > 0 ? std::min(color, 65504.0) : 0;
+}
 
-// Single precision in the formulas, then half, which some drivers reach by truncation: one unit in the last place.
-void expect_table(const cv::Mat4f& table, const std::vector<TissueDay>& rows, const passes::LutTissue& tissue, Rung rung,
-                  double absolute)
+// Single precision in the formulas, then half, which some drivers reach by truncation: one unit in the last
+// place.
+void expect_table(const cv::Mat4f& table, const std::vector<TissueDay>& rows, const passes::LutTissue& tissue,
+                  Rung rung, double absolute)
 {
     ASSERT_EQ(table.rows, static_cast<int>(rows.size()));
     for (int y = 0; y < table.rows; ++y)
         for (int x = 0; x < table.cols; ++x) {
-            const float injury =
-                shared::lut_value(static_cast<float>(x), static_cast<float>(table.cols), tissue.parameters.axes.deepest_mm);
-            const std::vector<double> color = diffuse_color(layers_at(rows[static_cast<std::size_t>(y)], injury), rung);
+            const float injury = shared::lut_value(static_cast<float>(x), static_cast<float>(table.cols),
+                                                   tissue.parameters.axes.deepest_mm);
+            const Color color = tissue_color(layers_at(rows[static_cast<std::size_t>(y)], injury), rung);
             for (int c = 0; c < 3; ++c) {
-                const double want = expected(color[static_cast<std::size_t>(c)]);
+                const double want = expected(color[c]);
                 const double got = table(y, x)[c];
                 ASSERT_NEAR(got, want, absolute + want * 0x1p-10)
                     << name(rung) << " row " << y << " column " << x << " channel " << c;
@@ -108,9 +125,23 @@ TEST_F(ReflectanceLutTest, EqualsTheReferenceOnRandomTissue)
     for (int i = 0; i < 6; ++i) {
         const std::vector<TissueDay> rows = random.rows(200, {.2, 1, .5, 4}, 1e-6, 1e3, true);
         const passes::LutTissue tissue = passes::lut_tissue(rows, last_day);
-        for (Rung rung : {Rung::Clamped, Rung::Exponential, Rung::TwoStreamPaper, Rung::TwoStream})
+        for (Rung rung :
+             {Rung::Clamped, Rung::Exponential, Rung::TwoStreamPaper, Rung::TwoStream, Rung::Calibrated})
             expect_table(bake(tissue, rung), rows, tissue, rung, 3e-5);
     }
+}
+
+TEST_F(ReflectanceLutTest, IntegratesTheSpectrumOfChromophoreTissue)
+{
+    std::vector<TissueDay> rows;
+    for (std::size_t i = 0; i < 24; ++i) {
+        const double day = passes::lut_row_day(i, 24, last_day);
+        rows.push_back(i % 2 ? open_bed(skin(SkinTone::Light), day, 1 - day / last_day)
+                             : covered_bed(skin(SkinTone::Dark), day, 0, 20));
+    }
+    const passes::LutTissue tissue = passes::lut_tissue(rows, last_day);
+    expect_table(bake(tissue, Rung::TwoStream, 32), rows, tissue, Rung::TwoStream, 3e-5);
+    expect_table(bake(tissue, Rung::Calibrated, 32), rows, tissue, Rung::Calibrated, 3e-5);
 }
 
 TEST_F(ReflectanceLutTest, PublishedRungIsAsPrintedWhereItStaysFinite)
@@ -131,7 +162,8 @@ TEST_F(ReflectanceLutTest, IsFiniteAndNotNegativeAtEveryExtreme)
             const cv::Mat4f table = bake(tissue, rung, 4);
             for (const cv::Vec4f& texel : table)
                 for (int c = 0; c < 3; ++c)
-                    ASSERT_TRUE(texel[c] >= 0 && texel[c] <= (rung == Rung::Published ? 65504.f : 1.f)) << name(rung);
+                    ASSERT_TRUE(texel[c] >= 0 && texel[c] <= (rung == Rung::Published ? 65504.f : 1.f))
+                        << name(rung);
             if (rung != Rung::Published)
                 expect_table(table, rows, tissue, rung, 3e-5);
         }
@@ -146,13 +178,17 @@ TEST_F(ReflectanceLutTest, EqualsTheReferenceAtAllCorners)
             for (double g : {-1., 0., 1e-7, 1.})
                 for (double n : {1., 1 + 1e-6, 1.29, 1.31, 3.})
                     for (double d : {0., 1e-9, 1e9}) {
-                        const Layer layer{"", {a, as_float(1.7), as_float(.3)}, {s, 0, 1e6}, as_float(g), as_float(n), as_float(d)};
-                        TissueDay day = restored_skin({.layers = {layer, layer}, .n_above = 1, .n_below = as_float(1.4)}, 0);
+                        const Layer layer{"",          {a, as_float(1.7), as_float(.3)},
+                                          {s, 0, 1e6}, as_float(g),
+                                          as_float(n), as_float(d)};
+                        TissueDay day = restored_skin(
+                            {.layers = {layer, layer}, .n_above = 1, .n_below = as_float(1.4)}, 0);
                         day.cover.thickness_mm = 0;
                         rows.push_back(day);
                     }
     const passes::LutTissue tissue = passes::lut_tissue(rows, last_day);
-    for (Rung rung : {Rung::Clamped, Rung::Exponential, Rung::TwoStreamPaper, Rung::TwoStream})
+    for (Rung rung :
+         {Rung::Clamped, Rung::Exponential, Rung::TwoStreamPaper, Rung::TwoStream, Rung::Calibrated})
         expect_table(bake(tissue, rung, 2), rows, tissue, rung, 3e-5);
 }
 

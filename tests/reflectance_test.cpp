@@ -58,8 +58,8 @@ class Draw
     std::mt19937 random_;
 };
 
-constexpr Rung two_streams[] = {Rung::TwoStream, Rung::TwoStreamPaper};
-constexpr Rung bounded[] = {Rung::TwoStream, Rung::TwoStreamPaper, Rung::Clamped, Rung::Exponential};
+constexpr Rung two_streams[] = {Rung::TwoStream, Rung::TwoStreamPaper, Rung::Calibrated};
+constexpr Rung bounded[] = {Rung::TwoStream, Rung::TwoStreamPaper, Rung::Calibrated, Rung::Clamped, Rung::Exponential};
 
 void expect_same(const Response& a, const Response& b, double tolerance)
 {

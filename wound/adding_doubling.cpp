@@ -84,14 +84,15 @@ struct Operator
 Operator boundary(const Nodes& nodes, double n_above, double n_below)
 {
     const Eigen::Index count = nodes.s2.size();
-    VectorXd r(count);
-    for (Eigen::Index j = 0; j < count; ++j) {
-        const double thinner = std::min(n_above, n_below);
-        r[j] = nodes.s2[j] < thinner * thinner
-                   ? fresnel(n_above, n_below, std::sqrt(1 - nodes.s2[j] / (n_above * n_above)))
-                   : 1;
-    }
-    const VectorXd t = VectorXd::Ones(count) - r;
+    const double thinner = std::min(n_above, n_below);
+    // Total reflection falls short of 1 by next to nothing, lest light trapped in a clear layer, which none
+    // ever is, made the round trip's matrix singular.
+    VectorXd r = VectorXd::Constant(count, 1 - 1e-13), t = VectorXd::Zero(count);
+    for (Eigen::Index j = 0; j < count; ++j)
+        if (nodes.s2[j] < thinner * thinner) {
+            r[j] = fresnel(n_above, n_below, std::sqrt(1 - nodes.s2[j] / (n_above * n_above)));
+            t[j] = 1 - r[j];
+        }
     return {r.asDiagonal(), r.asDiagonal(), t.asDiagonal(), t.asDiagonal()};
 }
 

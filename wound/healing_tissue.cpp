@@ -26,8 +26,10 @@ SkinLayers layers_at(const TissueDay& day, double injury_depth_mm)
 {
     const double injury = std::clamp(injury_depth_mm, 0.0, deepest_injury_mm(day.intact));
     SkinLayers result{.layers = {}, .n_above = day.intact.n_above, .n_below = day.intact.n_below};
-    if (day.cover.thickness_mm > 0)
+    if (const double thickness = std::min(day.cover.thickness_mm, injury); thickness > 0) {
         result.layers.push_back(day.cover);
+        result.layers.back().thickness_mm = thickness;
+    }
     if (day.regrown_ratio * injury > 0) {
         result.layers.push_back(day.regrown);
         result.layers.back().thickness_mm = day.regrown_ratio * injury;

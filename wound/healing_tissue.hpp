@@ -22,7 +22,8 @@ struct TissueDay
 TissueDay restored_skin(const SkinLayers& intact, double depth_scale);
 
 /// Layers from the top down where the injury took `injury_depth_mm`; layers of no thickness are left out. The
-/// deepest intact layer keeps at least half its thickness.
+/// cover is no thicker than the injury was deep, so that nothing shows where there was none. The deepest
+/// intact layer is always there and keeps at least half its thickness.
 SkinLayers layers_at(const TissueDay& day, double injury_depth_mm);
 
 /// The deepest injury that still changes anything: all layers but the last, and half of that one (at most 5

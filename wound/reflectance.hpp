@@ -18,7 +18,8 @@ enum class Rung
     Clamped,        // the same with each thickness limited to the domain
     Exponential,    // the same with exponentials for the linear attenuation
     TwoStreamPaper, // Kubelka-Munk layers with the paper's S = P sigma_s', K = sigma_a; adding
-    TwoStream, // Kubelka-Munk layers with Eddington's S = 3/4 sigma_s' - 1/4 sigma_a, K = 2 sigma_a; adding
+    TwoStream,  // Kubelka-Munk layers with Eddington's S = 3/4 sigma_s' - 1/4 sigma_a, K = 2 sigma_a; adding
+    Calibrated, // Kubelka-Munk layers with S and K fitted to the photon walk; adding
     AddingDoubling, // radiative transfer with N angles (adding_doubling.hpp)
     MonteCarlo,     // photon walk (monte_carlo.hpp)
 };
@@ -63,9 +64,9 @@ std::string_view name(Rung rung);
 /// Throws cicatrix::InputError, naming the known ones.
 Rung rung_named(std::string_view name);
 
-/// For TwoStreamPaper and TwoStream, whatever the input: 0 <= r, t and r + t <= 1; r + t = 1 without
-/// absorption; a layer split in two changes nothing. Clamped and Exponential keep the bounds only, Published
-/// keeps nothing.
+/// For TwoStreamPaper, TwoStream and Calibrated, whatever the input: 0 <= r, t and r + t <= 1; r + t = 1
+/// without absorption; a layer split in two changes nothing. Clamped and Exponential keep the bounds only,
+/// Published keeps nothing.
 Response reflectance(const Stack& stack, Rung rung, const RungOptions& options = {});
 
 /// What the first surface alone reflects.

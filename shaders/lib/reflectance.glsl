@@ -9,6 +9,7 @@ const int CLAMPED = 1;
 const int EXPONENTIAL = 2;
 const int TWO_STREAM_PAPER = 3;
 const int TWO_STREAM = 4;
+const int CALIBRATED = 5;
 
 // Henyey & Greenstein 1941, "Diffuse radiation in the galaxy": the integral over the backward half, multiplied out by the
 // conjugate because the textbook form is 0/0 at g = 0.
@@ -100,6 +101,12 @@ Element tissue_slab(int model, vec3 sigma_a, vec3 sigma_s_reduced, float g, floa
 {
     if (model == TWO_STREAM_PAPER)
         return slab(sigma_s_reduced * backward_fraction(g), sigma_a, thickness_mm);
+    if (model == CALIBRATED) {
+        // Fitted to the photon walk (docs/optics.md).
+        vec3 S = 0.6433 * sigma_s_reduced * (sigma_s_reduced / max(sigma_s_reduced + 2.2131 * sigma_a, vec3(1e-30)));
+        vec3 K = sigma_a * (1.9179 - 0.7631 * (sigma_a / max(sigma_a + sigma_s_reduced, vec3(1e-30))));
+        return slab(S, K, thickness_mm);
+    }
     // Eddington's S turns negative where absorption rules; there nothing scatters back.
     return slab(max(0.75 * sigma_s_reduced - 0.25 * sigma_a, vec3(0.0)), 2.0 * sigma_a, thickness_mm);
 }

@@ -13,11 +13,16 @@ using std::sqrt;
 
 struct LutLayer
 {
-    vec3 sigma_a;         // mm^-1
-    vec3 sigma_s_reduced; // mm^-1
     float g;
     float n;
     float thickness_mm; // of the intact layer, or of the cover
+};
+
+// Coefficients of a layer at three of the tissue's channels; a tissue has as many bands as it takes.
+struct LutBand
+{
+    vec3 sigma_a;         // mm^-1
+    vec3 sigma_s_reduced; // mm^-1
 };
 
 // One row of the table. Its layers are: cover, regrown tissue, then the intact layers from the top down.
@@ -40,6 +45,7 @@ struct LutParameters
     float n_above;
     float n_below;
     uint layers_per_day; // cover and regrown tissue included
+    uint bands;
 };
 
 // Both axes are quadratic: the thin upper layers and the first days have most of the texels. The ends lie on texel centres.

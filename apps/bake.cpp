@@ -1,0 +1,164 @@
+#include "apps/bake.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fmt/ostream.h>
+#include <iostream>
+
+#include "apps/bake_pictures.hpp"
+#include "engine/image_io.hpp"
+#include "passes/reflectance_table.hpp"
+#include "wound/healing.hpp"
+#include "wound/input_error.hpp"
+#include "wound/shading.hpp"
+
+namespace app {
+
+using namespace wound;
+using nlohmann::ordered_json;
+
+HealingTissue healing_tissue_or_file(const std::string& name)
+{
+    if (const auto preset = healing_tissue_named(name))
+        return *preset;
+    SkinLayers tissue = read_tissue(name);
+    if (channel_weights(tissue.channels()).empty())
+        throw cicatrix::InputError(name, fmt::format("has {} channels", tissue.channels()),
+                                   fmt::format("a colour takes 1, 3 or {}", wavelength_count));
+    return tissue;
+}
+
+TissueDay open_bed_on(const HealingTissue& tissue, double day)
+{
+    return open_bed(tissue, day, healing_at(Healing{}, day).depth_scale);
+}
+
+TableRows table_rows(const HealingTissue& tissue, std::uint32_t height, double last_day)
+{
+    const Healing healing;
+    TableRows tables;
+    for (std::uint32_t row = 0; row < height; ++row) {
+        const double day = passes::lut_row_day(row, height, last_day),
+                     depth = healing_at(healing, day).depth_scale;
+        tables.open.push_back(open_bed_on(tissue, day));
+        tables.covered.push_back(covered_bed(tissue, day, depth, closure_day(healing.curve)));
+    }
+    tables.axes = passes::lut_tissue(tables.open, last_day).parameters.axes;
+    return tables;
+}
+
+namespace {
+
+// Figure 6 of the paper: the colour alone. The printed blend of the printed reflectance beside ours, in the
+// same wound.
+cv::Mat3b strip(const cv::Mat3f& open, const cv::Mat3f& covered, const shared::LutAxes& axes)
+{
+    const Color wound_color(.30, .035, .03);
+    const Color skin_color = passes::sample_table(open, axes, 0, 0);
+    constexpr double depth_mm = 1;
+    const Healing healing;
+    std::vector<double> days;
+    ColorRow published{"published", {}}, corrected{"corrected", {}}, bed{"open bed, optics", {}},
+        ring{"covered, optics", {}};
+    for (double day = 0; day <= 30; day += 2) {
+        const HealingState state = healing_at(healing, day);
+        days.push_back(day);
+        const SkinLayers printed = layers_at(restored_skin(table1(), state.depth_scale), depth_mm);
+        bed.colors.push_back(passes::sample_table(open, axes, depth_mm, day));
+        ring.colors.push_back(passes::sample_table(covered, axes, depth_mm, day));
+        published.colors.push_back(blend(BlendModel::Published, wound_color,
+                                         tissue_color(printed, Rung::Published), skin_color,
+                                         state.recovery_ratio));
+        corrected.colors.push_back(
+            blend(BlendModel::Corrected, wound_color, bed.colors.back(), skin_color, state.recovery_ratio));
+    }
+    return draw_strip(days, {published, corrected, bed, ring});
+}
+
+} // namespace
+
+void make_folder(const std::filesystem::path& folder)
+{
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw cicatrix::InputError(folder.string(), "cannot be made: " + error.message(),
+                                   "name a folder you may write");
+}
+
+std::filesystem::path cache_folder()
+{
+    const auto variable = [](const char* name) -> std::string {
+        const char* value = std::getenv(name);
+        return value ? value : "";
+    };
+    if (const std::string cache = variable("XDG_CACHE_HOME"); !cache.empty())
+        return std::filesystem::path(cache) / "cicatrix";
+    if (const std::string home = variable("HOME"); !home.empty())
+        return std::filesystem::path(home) / ".cache" / "cicatrix";
+    return std::filesystem::temp_directory_path() / "cicatrix";
+}
+
+void bake(const BakeOptions& options, std::ostream& out)
+{
+    const HealingTissue tissue = healing_tissue_or_file(options.tissue);
+    const TableRows rows = table_rows(tissue, options.height, options.last_day);
+    make_folder(options.out);
+    const auto table = [&](const std::vector<TissueDay>& days) {
+        return passes::cached_reflectance_table(cache_folder(), days, options.width, options.rung,
+                                                options.rung_options);
+    };
+    const cv::Mat3f open = table(rows.open), covered = table(rows.covered);
+    engine::write_exr(options.out / "open_bed.exr", open);
+    engine::write_exr(options.out / "covered.exr", covered);
+    engine::write_png(options.out / "tables.png",
+                      draw_tables({{"open bed", open}, {"covered", covered}}, rows.axes));
+    engine::write_png(options.out / "color_over_days.png", strip(open, covered, rows.axes));
+    fmt::print(out, "{}: open_bed.exr, covered.exr ({} x {}, {}), tables.png, color_over_days.png\n",
+               options.out.string(), options.width, options.height, name(options.rung));
+}
+
+namespace {
+
+// "64x32"
+void read_size(const std::string& text, BakeOptions& options)
+{
+    unsigned width = 0, height = 0;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%ux%u%c", &width, &height, &rest) != 2 || width < 2 || height < 2 ||
+        width > 1024 || height > 1024)
+        throw cicatrix::InputError("--size " + text, "is not a size",
+                                   "give WIDTHxHEIGHT, each from 2 to 1024");
+    options.width = width;
+    options.height = height;
+}
+
+} // namespace
+
+void add_bake_command(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand(
+        "bake", "Write the reflectance table and the colour over days; compare the models");
+    auto options = std::make_shared<BakeOptions>();
+    auto comparing = std::make_shared<bool>(false);
+    command->add_option("--tissue", options->tissue, "table1, light, medium, dark or a tissue file")
+        ->capture_default_str();
+    command->add_option_function<std::string>(
+        "--model", [options](const std::string& text) { options->rung = rung_named(text); },
+        "Reflectance model (default adding-doubling)");
+    command->add_option_function<std::string>(
+        "--size", [options](const std::string& text) { read_size(text, *options); },
+        "Texels over depth x days (default 32x32)");
+    command->add_option("--last-day", options->last_day, "Last day of the table")
+        ->check(CLI::Range(1.0, 3650.0))
+        ->capture_default_str();
+    command->add_option("--out", options->out, "Folder to write")->capture_default_str();
+    command->add_option("--photons", options->rung_options.photons, "Photons per colour of the reference")
+        ->check(CLI::Range(100.0, 1e11))
+        ->capture_default_str();
+    command->add_flag("--compare", *comparing, "Measure every model against the photon walk");
+    command->callback(
+        [options, comparing] { *comparing ? compare(*options, std::cout) : bake(*options, std::cout); });
+}
+
+} // namespace app

@@ -1,0 +1,76 @@
+// `cicatrix bake`: the reflectance table as files, the colour of a wound over the days as in the paper's
+// Figure 6, and, with
+// --compare, every rung of the ladder against the photon walk.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iosfwd>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "shaders/shared/reflectance_lut.h"
+#include "wound/reflectance.hpp"
+#include "wound/skin_presets.hpp"
+
+namespace app {
+
+struct BakeOptions
+{
+    std::string tissue = "light"; // a preset that heals, or a tissue file
+    wound::Rung rung = wound::Rung::AddingDoubling;
+    std::uint32_t width = 32, height = 32; // texels over depth and over days
+    double last_day = 60;
+    std::filesystem::path out = "out/bake";
+    wound::RungOptions rung_options{.angles = 4, .photons = 200'000};
+};
+
+/// A preset's name or a tissue file; InputError unless its channels are one, three or a spectrum.
+wound::HealingTissue healing_tissue_or_file(const std::string& name);
+
+/// Writes the tables (EXR and a labelled picture) and the strip of colours over days; says what it wrote on
+/// `out`. Numerical rungs keep their tables in cache_folder().
+void bake(const BakeOptions& options, std::ostream& out);
+
+/// cicatrix/ in XDG_CACHE_HOME, else in ~/.cache.
+std::filesystem::path cache_folder();
+void make_folder(const std::filesystem::path& folder); // InputError when it cannot be made
+
+/// The tissue of every row's day for the default healing curve.
+struct TableRows
+{
+    std::vector<wound::TissueDay> open, covered;
+    shared::LutAxes axes;
+};
+wound::TissueDay open_bed_on(const wound::HealingTissue& tissue, double day);
+TableRows table_rows(const wound::HealingTissue& tissue, std::uint32_t height, double last_day);
+
+/// One rung on one stack.
+struct Measured
+{
+    wound::Rung rung;
+    wound::Color color;
+    double rms_error = 0, delta_e = 0; // against Monte Carlo
+    double seconds = 0;                // per channel
+};
+struct MeasuredStack
+{
+    std::string name;
+    std::vector<Measured> rungs;
+};
+std::vector<MeasuredStack> measure_ladder(const wound::RungOptions& options);
+/// Interpolation error of tables from 8 x 8 to 256 x 256; the whole error of the options' table against Monte
+/// Carlo.
+nlohmann::ordered_json measure_table_sizes(const BakeOptions& options);
+nlohmann::ordered_json measure_table_against_walk(const BakeOptions& options);
+/// Root mean square error of two-stream and calibrated on the stacks that the fit has seen and on those that
+/// it has not.
+nlohmann::ordered_json measure_calibration();
+
+/// The table "rung | R G B | rms error | dE2000 | cost" as text on `out`, as compare.json and as a plot,
+/// compare.png.
+void compare(const BakeOptions& options, std::ostream& out);
+
+void add_bake_command(CLI::App& app);
+
+} // namespace app

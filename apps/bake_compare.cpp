@@ -1,0 +1,265 @@
+// Every rung of the ladder against the photon walk: error, cost, the table's size and the calibrated rung's
+// held-out error.
+#include <chrono>
+#include <cmath>
+#include <fmt/ostream.h>
+#include <fstream>
+#include <random>
+
+#include "apps/bake.hpp"
+#include "apps/bake_pictures.hpp"
+#include "engine/image_io.hpp"
+#include "passes/reflectance_table.hpp"
+#include "wound/input_error.hpp"
+
+namespace app {
+
+using namespace wound;
+using nlohmann::ordered_json;
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+ordered_json list(const Color& color)
+{
+    return {color[0], color[1], color[2]};
+}
+
+double rms(const Color& difference)
+{
+    return cv::norm(difference) / std::sqrt(3.0);
+}
+
+// The colour and what one channel costs; cheap rungs are repeated until the clock can see them.
+Measured measure(const SkinLayers& tissue, Rung rung, const RungOptions& options)
+{
+    const auto start = std::chrono::steady_clock::now();
+    Measured result{.rung = rung, .color = tissue_color(tissue, rung, options)};
+    int runs = 1;
+    while (rung != Rung::MonteCarlo && seconds_since(start) < 0.02 && ++runs)
+        result.color = tissue_color(tissue, rung, options);
+    result.seconds = seconds_since(start) / runs / static_cast<double>(tissue.channels());
+    return result;
+}
+
+std::vector<std::pair<std::string, SkinLayers>> compared_stacks()
+{
+    return {{"Table 1, 0.2 1 4 mm", table1(.2, 1, 4)},
+            {"Table 1, 0.2 4 9 mm", table1(.2, 4, 9)},
+            {"Table 1, no epidermis", layers_at(restored_skin(table1(), 1), .2)},
+            {"light skin", *tissue_preset("light")},
+            {"dark skin", *tissue_preset("dark")},
+            {"granulation bed", *tissue_preset("granulation")},
+            {"scar, 1 month", *tissue_preset("scar")}};
+}
+
+// Stacks like skin, wounded or not; the calibrated rung was fitted on those with an even number.
+std::vector<Stack> calibration_stacks()
+{
+    std::mt19937 random(5);
+    const auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution(low, high)(random);
+    };
+    const auto logarithmic = [&](double low, double high) {
+        return std::exp(uniform(std::log(low), std::log(high)));
+    };
+    std::vector<Stack> stacks;
+    for (int i = 0; i < 96; ++i) {
+        Stack stack;
+        const bool epidermis = i % 4 != 3, bloody = i % 4 == 2;
+        if (epidermis)
+            stack.layers.push_back({logarithmic(.02, 8), uniform(3, 14), uniform(.2, .85), uniform(1.38, 1.5),
+                                    logarithmic(.03, .25)});
+        stack.layers.push_back(
+            {logarithmic(.005, bloody ? 20 : 2), uniform(1.5, 9), uniform(.7, .85), 1.4, logarithmic(.3, 4)});
+        stack.layers.push_back(
+            {logarithmic(.01, 2), uniform(1.5, 7), uniform(.7, .85), uniform(1.38, 1.46), logarithmic(1, 9)});
+        stack.n_below = stack.layers.back().n;
+        stacks.push_back(stack);
+    }
+    return stacks;
+}
+
+} // namespace
+
+std::vector<MeasuredStack> measure_ladder(const RungOptions& options)
+{
+    std::vector<MeasuredStack> result;
+    for (const auto& [stack_name, tissue] : compared_stacks()) {
+        RungOptions walk = options; // `photons` are for the colour: a spectrum's channels share them
+        walk.photons = std::max<std::uint64_t>(1000, options.photons * 3 / tissue.channels());
+        const Measured reference = measure(tissue, Rung::MonteCarlo, walk);
+        MeasuredStack stack{stack_name, {}};
+        for (Rung rung : all_rungs()) {
+            Measured m = rung == Rung::MonteCarlo ? reference : measure(tissue, rung, options);
+            m.rms_error = rms(m.color - reference.color);
+            m.delta_e = delta_e2000(lab_from_linear(m.color), lab_from_linear(reference.color));
+            stack.rungs.push_back(m);
+        }
+        result.push_back(std::move(stack));
+    }
+    return result;
+}
+
+ordered_json measure_table_sizes(const BakeOptions& options)
+{
+    const HealingTissue tissue = healing_tissue_or_file(options.tissue);
+    std::mt19937 random(11);
+    const auto uniform = [&] { return std::uniform_real_distribution(0.0, 1.0)(random); };
+    struct Sample
+    {
+        double depth, day;
+        Color direct;
+    };
+    // Evenly over the table, each against the rung itself on that very day.
+    const shared::LutAxes axes = table_rows(tissue, 2, options.last_day).axes;
+    std::vector<Sample> samples;
+    for (int i = 0; i < 1000; ++i) {
+        const double u = uniform(), v = uniform(), depth = u * u * axes.deepest_mm,
+                     day = v * v * options.last_day;
+        const Color direct = tissue_color(layers_at(open_bed_on(tissue, day), depth), Rung::Calibrated);
+        samples.push_back({depth, day, direct});
+    }
+    ordered_json sizes = ordered_json::array();
+    for (std::uint32_t size = 8; size <= 256; size *= 2) {
+        const cv::Mat3f table = passes::bake_reflectance_table(
+            table_rows(tissue, size, options.last_day).open, size, Rung::Calibrated);
+        double sum = 0, worst = 0;
+        for (const Sample& s : samples) {
+            const double error = rms(passes::sample_table(table, axes, s.depth, s.day) - s.direct);
+            sum += error * error;
+            worst = std::max(worst, error);
+        }
+        sizes.push_back({{"size", size},
+                         {"rms", std::sqrt(sum / static_cast<double>(samples.size()))},
+                         {"worst", worst}});
+    }
+    return sizes;
+}
+
+ordered_json measure_table_against_walk(const BakeOptions& options)
+{
+    const HealingTissue tissue = healing_tissue_or_file(options.tissue);
+    const TableRows rows = table_rows(tissue, options.height, options.last_day);
+    const cv::Mat3f table = passes::cached_reflectance_table(cache_folder(), rows.open, options.width,
+                                                             options.rung, options.rung_options);
+    std::mt19937 random(12);
+    const auto uniform = [&] { return std::uniform_real_distribution(0.0, 1.0)(random); };
+    double sum = 0, worst = 0;
+    constexpr int count = 12;
+    for (int i = 0; i < count; ++i) {
+        const double u = uniform(), v = uniform(), depth = u * u * rows.axes.deepest_mm,
+                     day = v * v * options.last_day;
+        const SkinLayers layers = layers_at(open_bed_on(tissue, day), depth);
+        RungOptions walk = options.rung_options;
+        walk.photons = std::max<std::uint64_t>(1000, walk.photons * 3 / layers.channels());
+        const double error = rms(passes::sample_table(table, rows.axes, depth, day) -
+                                 tissue_color(layers, Rung::MonteCarlo, walk));
+        sum += error * error;
+        worst = std::max(worst, error);
+    }
+    return {{"model", name(options.rung)},   {"width", options.width},
+            {"height", options.height},      {"points", count},
+            {"rms", std::sqrt(sum / count)}, {"worst", worst}};
+}
+
+ordered_json measure_calibration()
+{
+    const std::vector<Stack> stacks = calibration_stacks();
+    ordered_json result;
+    for (Rung rung : {Rung::TwoStream, Rung::Calibrated}) {
+        double sum[2] = {};
+        for (std::size_t i = 0; i < stacks.size(); ++i) {
+            const double truth = reflectance(stacks[i], Rung::AddingDoubling).r_without_specular;
+            const double error = reflectance(stacks[i], rung).r_without_specular - truth;
+            sum[i % 2] += error * error;
+        }
+        const double half = static_cast<double>(stacks.size()) / 2;
+        result[std::string(name(rung))] = {{"fitted_rms", std::sqrt(sum[0] / half)},
+                                           {"held_out_rms", std::sqrt(sum[1] / half)}};
+    }
+    return result;
+}
+
+namespace {
+
+ordered_json ladder_json(const std::vector<MeasuredStack>& ladder)
+{
+    ordered_json stacks = ordered_json::array();
+    for (const MeasuredStack& stack : ladder) {
+        ordered_json rungs = ordered_json::array();
+        for (const Measured& m : stack.rungs)
+            rungs.push_back({{"rung", name(m.rung)},
+                             {"rgb", list(m.color)},
+                             {"rms_error", m.rms_error},
+                             {"delta_e2000", m.delta_e},
+                             {"microseconds", 1e6 * m.seconds}});
+        stacks.push_back({{"stack", stack.name}, {"rungs", rungs}});
+    }
+    return stacks;
+}
+
+void print_ladder(const std::vector<MeasuredStack>& ladder, std::ostream& out)
+{
+    for (const MeasuredStack& stack : ladder) {
+        fmt::print(out, "{}\n  {:17} {:>7} {:>7} {:>7}  {:>9} {:>7} {:>12}\n", stack.name, "rung", "R", "G",
+                   "B", "rms error", "dE2000", "us/channel");
+        for (const Measured& m : stack.rungs)
+            fmt::print(out, "  {:17} {:7.3f} {:7.3f} {:7.3f}  {:9.4f} {:7.2f} {:12.2f}\n", name(m.rung),
+                       m.color[0], m.color[1], m.color[2], m.rms_error, m.delta_e, 1e6 * m.seconds);
+    }
+}
+
+// One point for each rung: error over all stacks against mean cost. The reference has no error to show.
+std::vector<PlotPoint> frontier(const std::vector<MeasuredStack>& ladder)
+{
+    std::vector<PlotPoint> points;
+    for (std::size_t r = 0; r + 1 < all_rungs().size(); ++r) {
+        double squares = 0, cost = 0;
+        for (const MeasuredStack& stack : ladder) {
+            squares += stack.rungs[r].rms_error * stack.rungs[r].rms_error;
+            cost += 1e6 * stack.rungs[r].seconds;
+        }
+        const auto count = static_cast<double>(ladder.size());
+        points.push_back(
+            {std::string(name(all_rungs()[r])), cost / count, std::max(1e-6, std::sqrt(squares / count))});
+    }
+    return points;
+}
+
+} // namespace
+
+void compare(const BakeOptions& options, std::ostream& out)
+{
+    make_folder(options.out);
+    const std::vector<MeasuredStack> ladder = measure_ladder(options.rung_options);
+    print_ladder(ladder, out);
+    const std::vector<PlotPoint> points = frontier(ladder);
+    for (const PlotPoint& point : points)
+        fmt::print(out, "{:17} rms {:.4f} over all stacks at {:.2f} us per channel\n", point.name, point.y,
+                   point.x);
+    ordered_json json;
+    json["photons"] = options.rung_options.photons;
+    json["stacks"] = ladder_json(ladder);
+    json["calibration"] = measure_calibration();
+    json["table_sizes"] = measure_table_sizes(options);
+    json["table_against_walk"] = measure_table_against_walk(options);
+    fmt::print(out, "calibration: {}\n", json["calibration"].dump());
+    for (const auto& size : json["table_sizes"])
+        fmt::print(out, "table {0} x {0}: interpolation rms {1:.5f}, worst {2:.5f}\n",
+                   size["size"].get<int>(), size["rms"].get<double>(), size["worst"].get<double>());
+    fmt::print(out, "table against the photon walk: {}\n", json["table_against_walk"].dump());
+    engine::write_png(options.out / "compare.png",
+                      draw_plot(points, "cost per channel, microseconds", "rms error against Monte Carlo"));
+    std::ofstream file(options.out / "compare.json");
+    file << json.dump(2) << '\n';
+    if (!file)
+        throw cicatrix::InputError((options.out / "compare.json").string(), "cannot be written",
+                                   "check the disk and the permissions");
+}
+
+} // namespace app

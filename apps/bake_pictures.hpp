@@ -1,0 +1,34 @@
+// The pictures of `cicatrix bake`: labelled, small, drawn with OpenCV. Colours are linear Rec. 709 until they
+// are written.
+#pragma once
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "shaders/shared/reflectance_lut.h"
+#include "wound/color.hpp"
+
+namespace app {
+
+/// Tables side by side under their names, with depth (mm) and day along the axes.
+cv::Mat3b draw_tables(const std::vector<std::pair<std::string, cv::Mat3f>>& tables,
+                      const shared::LutAxes& axes);
+
+struct ColorRow
+{
+    std::string name;
+    std::vector<wound::Color> colors;
+};
+/// Rows of swatches under the days they belong to.
+cv::Mat3b draw_strip(const std::vector<double>& days, const std::vector<ColorRow>& rows);
+
+struct PlotPoint
+{
+    std::string name;
+    double x, y; // > 0
+};
+/// Points on logarithmic axes.
+cv::Mat3b draw_plot(const std::vector<PlotPoint>& points, const std::string& x_label,
+                    const std::string& y_label);
+
+} // namespace app

@@ -1,0 +1,195 @@
+#include "wound/skin_presets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace wound {
+
+namespace {
+
+constexpr double anisotropy = 0.8;
+constexpr double epidermis_index = 1.45, dermis_index = 1.4, subcutis_index = 1.44, blood_index = 1.38;
+constexpr double days_per_month = 30.44;
+
+Layer epidermis_layer(const Chromophores& content, double thickness_mm)
+{
+    return chromophore_layer("epidermis", content, anisotropy, epidermis_index, thickness_mm);
+}
+
+Layer dermis_layer(std::string name, const Chromophores& content, double thickness_mm)
+{
+    return chromophore_layer(std::move(name), content, anisotropy, dermis_index, thickness_mm);
+}
+
+// Loose, wet and full of capillaries: 5 to 15 % blood, and little collagen to scatter.
+constexpr Chromophores granulation{.blood = .1,
+                                   .oxygenation = .7,
+                                   .water = .8,
+                                   .baseline = .5,
+                                   .scattering_500nm = 3,
+                                   .scattering_power = 1.5};
+
+// Fresh blood that loses its oxygen within hours and its thickness, as clot and crust, within days.
+Layer blood_film(double day)
+{
+    const Chromophores blood{.blood = 1,
+                             .oxygenation = .3 + .65 * std::exp(-day / .4),
+                             .baseline = 0,
+                             .scattering_500nm = 2,
+                             .scattering_power = 1};
+    return chromophore_layer("blood", blood, .98, blood_index, .06 * std::exp(-day / 2.5));
+}
+
+double months_since_closure(double day, double closure_day)
+{
+    return std::max(0.0, day - closure_day) / days_per_month;
+}
+
+// Epithelium starts as a thin pale sheet. Redness and pigment of the scar against the skin beside it:
+// Danielsen et al. 2013.
+Layer new_epithelium(const ChromophoreSkin& skin, double day, double closure_day)
+{
+    const double maturity = 1 - std::exp(-day / 14), months = months_since_closure(day, closure_day);
+    const double darkening =
+        .35 * std::exp(-.235 * months) * (1 - std::exp(-2 * months)); // +24 % at 1, +15 % at 3 months
+    Chromophores content = skin.epidermis;
+    content.melanosomes *= (.3 + .7 * maturity) * (1 + darkening);
+    return epidermis_layer(content, skin.epidermis_mm * (.35 + .65 * maturity));
+}
+
+Layer scar_tissue(const ChromophoreSkin& skin, double day, double closure_day)
+{
+    // Before the closure the ring is granulation tissue that loses its vessels; from then on the excess of
+    // redness fades.
+    const double redness = 2.055 / (1 + months_since_closure(day, closure_day) / 2.37);
+    Chromophores content = skin.dermis;
+    content.blood = std::min(granulation.blood, skin.dermis.blood * (1 + redness));
+    return dermis_layer("scar", content, 0);
+}
+
+} // namespace
+
+SkinLayers ChromophoreSkin::layers() const
+{
+    return {.layers = {epidermis_layer(epidermis, epidermis_mm), dermis_layer("dermis", dermis, dermis_mm),
+                       chromophore_layer("subcutis", subcutis, anisotropy, subcutis_index, subcutis_mm)},
+            .n_above = 1,
+            .n_below = subcutis_index};
+}
+
+ChromophoreSkin skin(SkinTone tone)
+{
+    // melanosomes, blood, oxygenation, baseline and the scattering relative to excised skin (Salomatina et
+    // al. 2006), fitted.
+    struct Fit
+    {
+        double melanosomes, blood, oxygenation, baseline, scattering;
+    };
+    constexpr std::array<Fit, 3> fits{
+        {{.0083, .0173, .85, .50, .75}, {.0233, .0136, .84, .52, .82}, {.0595, .0633, .82, .58, 1.07}}};
+    const Fit& fit = fits[static_cast<std::size_t>(tone)];
+    ChromophoreSkin result;
+    result.epidermis = {.melanosomes = fit.melanosomes,
+                        .baseline = fit.baseline,
+                        .scattering_500nm = 7.1 * fit.scattering,
+                        .scattering_power = 1.7};
+    result.dermis = {.blood = fit.blood,
+                     .oxygenation = fit.oxygenation,
+                     .baseline = fit.baseline,
+                     .scattering_500nm = 4.7 * fit.scattering,
+                     .scattering_power = 1.9};
+    result.subcutis = {.blood = .5 * fit.blood,
+                       .oxygenation = fit.oxygenation,
+                       .baseline = fit.baseline,
+                       .scattering_500nm = 3.6 * fit.scattering,
+                       .scattering_power = 1.4};
+    return result;
+}
+
+TissueDay open_bed(const HealingTissue& tissue, double day, double depth_scale)
+{
+    if (const auto* table = std::get_if<SkinLayers>(&tissue))
+        return restored_skin(*table, depth_scale);
+    const auto& content = std::get<ChromophoreSkin>(tissue);
+    return {.intact = content.layers(),
+            .missing_ratio = depth_scale,
+            .regrown_ratio = 1 - depth_scale,
+            .regrown = dermis_layer("granulation", granulation, 0),
+            .cover = blood_film(day)};
+}
+
+TissueDay covered_bed(const HealingTissue& tissue, double day, double depth_scale, double closure_day)
+{
+    if (const auto* table = std::get_if<SkinLayers>(&tissue))
+        return restored_skin(*table, depth_scale);
+    const auto& content = std::get<ChromophoreSkin>(tissue);
+    return {.intact = content.layers(),
+            .missing_ratio = 0,
+            .regrown_ratio = 1,
+            .regrown = scar_tissue(content, day, closure_day),
+            .cover = new_epithelium(content, day, closure_day)};
+}
+
+SkinLayers bruise(const ChromophoreSkin& skin, double day)
+{
+    // The blood in the tissue loses its oxygen in a day and is broken down with a time constant of 5 days;
+    // bilirubin from it peaks about day 6 and is carried off (colours by day: Langlois & Gresham 1991).
+    const double left = std::exp(-day / 5), freed = day / 6 * std::exp(1 - day / 6);
+    Chromophores content = skin.dermis;
+    const double spilt = .06 * left;
+    content.oxygenation =
+        (content.blood * content.oxygenation + spilt * (.2 + .5 * std::exp(-day))) / (content.blood + spilt);
+    content.blood += spilt;
+    content.bilirubin_mmol_l = .15 * freed;
+    SkinLayers result = skin.layers();
+    constexpr double depth_mm = .3; // of the pool under the epidermis
+    result.layers[1].thickness_mm = depth_mm;
+    result.layers.insert(result.layers.begin() + 2,
+                         dermis_layer("bruise", content, skin.dermis_mm - depth_mm));
+    return result;
+}
+
+std::optional<HealingTissue> healing_tissue_named(std::string_view name)
+{
+    if (name == "table1")
+        return table1();
+    if (name == "light")
+        return skin(SkinTone::Light);
+    if (name == "medium")
+        return skin(SkinTone::Medium);
+    if (name == "dark")
+        return skin(SkinTone::Dark);
+    return {};
+}
+
+std::vector<std::string_view> tissue_preset_names()
+{
+    return {"table1",         "light", "medium",   "dark",     "granulation",
+            "new-epithelium", "scar",  "bruise-1", "bruise-6", "bruise-12"};
+}
+
+std::optional<SkinLayers> tissue_preset(std::string_view name)
+{
+    if (const auto tissue = healing_tissue_named(name)) {
+        const auto* table = std::get_if<SkinLayers>(&*tissue);
+        return table ? *table : std::get<ChromophoreSkin>(*tissue).layers();
+    }
+    const ChromophoreSkin light = skin(SkinTone::Light);
+    constexpr double depth_mm = 1, closure_day = 21;
+    if (name == "granulation")
+        return layers_at(open_bed(light, 14, .5), depth_mm);
+    if (name == "new-epithelium")
+        return layers_at(covered_bed(light, 10, 0, closure_day), depth_mm);
+    if (name == "scar")
+        return layers_at(covered_bed(light, closure_day + days_per_month, 0, closure_day), depth_mm);
+    if (name == "bruise-1")
+        return bruise(light, 1);
+    if (name == "bruise-6")
+        return bruise(light, 6);
+    if (name == "bruise-12")
+        return bruise(light, 12);
+    return {};
+}
+
+} // namespace wound
