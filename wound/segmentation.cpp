@@ -12,10 +12,10 @@ namespace wound {
 
 namespace {
 
-constexpr int kWorkingSize = 512; // pixels on the longer side
+constexpr int kWorkingSize = 400; // pixels on the longer side
 constexpr int kClusters = 8;
-constexpr int kGrabCutIterations = 6;
-constexpr double kLeastContrast = 7; // CIELAB distance across a wound's border, on average
+constexpr int kGrabCutIterations = 4;
+constexpr double kLeastContrast = 5; // CIELAB distance across a wound's border, on average
 constexpr int kLeastSide = 16;       // pixels of a photograph
 
 cv::Mat1b fill_holes(const cv::Mat1b& mask)
@@ -136,42 +136,48 @@ cv::Mat1b solve(const Problem& problem)
     return main_component(mask, problem.seed);
 }
 
-/// Distance between the colours just inside and just outside the mask's border, CIELAB, averaged along it; a
-/// border that is the rectangle's own counts as none.
-double border_contrast(const Problem& problem, const cv::Mat1b& mask)
+/// How wound and skin differ across the mask's border, CIELAB, averaged along it.
+struct BorderContrast
+{
+    double distance = 0;   // of the colours just inside and just outside
+    double wound_like = 0; // how much redder and darker the inside is; a limb before a dark background is not
+};
+
+/// A border that is the rectangle's own counts as none.
+BorderContrast border_contrast(const Problem& problem, const cv::Mat1b& mask)
 {
     const int area = cv::countNonZero(mask);
     if (area == 0)
-        return 0;
+        return {};
     const int step = std::max(2, static_cast<int>(.06 * std::sqrt(area)));
     std::vector<std::vector<cv::Point>> outlines;
     cv::findContours(mask, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
-    cv::Mat1f soft;
+    cv::Mat1f soft, slope_x, slope_y;
     mask.convertTo(soft, CV_32F);
     cv::GaussianBlur(soft, soft, {}, step);
-    cv::Mat3f colors;
-    cv::GaussianBlur(problem.lab, colors, {}, .5 * step);
-    cv::Mat1f slope_x, slope_y;
     cv::Sobel(soft, slope_x, CV_32F, 1, 0);
     cv::Sobel(soft, slope_y, CV_32F, 0, 1);
+    cv::Mat3f colors;
+    cv::GaussianBlur(problem.lab, colors, {}, .5 * step);
     const cv::Rect picture(cv::Point(), mask.size());
-    const cv::Rect interior(problem.rect.x + 2, problem.rect.y + 2, problem.rect.width - 4,
-                            problem.rect.height - 4);
-    double sum = 0;
-    int count = 0;
+    const cv::Rect interior(problem.rect.tl() + cv::Point(2, 2), problem.rect.br() - cv::Point(2, 2));
+    BorderContrast sum;
     for (cv::Point p : outlines.front()) {
-        ++count;
         const cv::Point2f inward(slope_x(p), slope_y(p));
         const float length = std::hypot(inward.x, inward.y);
         if (!interior.contains(p) || length == 0)
             continue;
         const cv::Point2f unit = inward * (1.5F * static_cast<float>(step) / length);
-        const cv::Point inside(cvRound(p.x + unit.x), cvRound(p.y + unit.y)),
-            outside(cvRound(p.x - unit.x), cvRound(p.y - unit.y));
-        if (picture.contains(inside) && picture.contains(outside) && problem.picture(outside))
-            sum += cv::norm(colors(inside) - colors(outside));
+        const cv::Point inside(cvRound(p.x + unit.x), cvRound(p.y + unit.y));
+        const cv::Point outside(cvRound(p.x - unit.x), cvRound(p.y - unit.y));
+        if (!picture.contains(inside) || !picture.contains(outside) || !problem.picture(outside))
+            continue;
+        const cv::Vec3f difference = colors(inside) - colors(outside);
+        sum.distance += cv::norm(difference);
+        sum.wound_like += std::max(difference[1] - .5F * difference[0], 0.F);
     }
-    return sum / count;
+    const auto points = static_cast<double>(outlines.front().size());
+    return {sum.distance / points, sum.wound_like / points};
 }
 
 /// The rectangle and as much again around it, at most `working_size` pixels on the longer side.
@@ -218,7 +224,7 @@ cv::Rect best_rectangle(const cv::Mat3b& srgb, const cv::Rect& bounds, cv::Point
         if (rect.width < 8 || rect.height < 8)
             continue;
         const Problem problem = pose(srgb, rect, seed, kTrialSize);
-        const double contrast = border_contrast(problem, solve(problem));
+        const double contrast = border_contrast(problem, solve(problem)).wound_like;
         if (contrast > sharpest) {
             sharpest = contrast;
             best = rect;
@@ -281,7 +287,7 @@ cv::Mat1b segment(const cv::Mat3b& srgb, const SegmentationHints& hints, std::st
     const cv::Mat1b mask = solve(problem);
     if (cv::countNonZero(mask) < 16)
         no_wound(where, "nothing near the seed differs from its surroundings");
-    if (border_contrast(problem, mask) < kLeastContrast)
+    if (border_contrast(problem, mask).distance < kLeastContrast)
         no_wound(where, "what was found has nearly its surroundings' colour");
     cv::Mat1f coverage;
     mask.convertTo(coverage, CV_32F, 1 / 255.);

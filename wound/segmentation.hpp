@@ -17,7 +17,7 @@ struct SegmentationHints
 };
 
 /// 255 in the wound, of the photograph's size. `srgb` in RGB order; near-black surroundings of a cropped
-/// picture count as no part of it. Works at up to 512 pixels a side (of the rectangle and its surroundings
+/// picture count as no part of it. Works at up to 400 pixels a side (of the rectangle and its surroundings
 /// when there is one) and maps the result back. Deterministic. Throws cicatrix::InputError (`where` names the
 /// photograph) for a photograph with no wound in it, too small a one, or hints outside it.
 cv::Mat1b segment(const cv::Mat3b& srgb, const SegmentationHints& hints, std::string_view where);
