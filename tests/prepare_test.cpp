@@ -132,6 +132,23 @@ TEST(Prepare, DayZeroIsTheWoundItselfAndLaterDaysShrinkIt)
     }
 }
 
+TEST(Prepare, TheLastOfTheBedFadesAfterClosure)
+{
+    const auto wound = wound::prepare(photograph({260, 220}, {120, 110}, bean), small_patch());
+    const wound::Healing face;
+    const double closed = wound::closure_day(face.curve);
+    EXPECT_EQ(wound::wound_at(wound, face, closed - 1).bed_presence, 1);
+    double last = 1, steepest = 0;
+    for (double day = closed - 1; day < closed + 20; day += 1) {
+        const auto today = wound::wound_at(wound, face, day, wound::WarpRung::radial);
+        steepest = std::max(steepest, last - today.bed_presence);
+        EXPECT_LE(today.bed_presence, last);
+        last = today.bed_presence;
+    }
+    EXPECT_EQ(last, 0);
+    EXPECT_LT(steepest, .5);
+}
+
 TEST(Prepare, BadWidthsAndEmptyPhotographsAreRefused)
 {
     auto preparation = small_patch();

@@ -173,6 +173,10 @@ WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day
     result.border_ratio = state.border_ratio;
     result.recovery_ratio = state.recovery_ratio;
     result.depth_scale = state.depth_scale;
+    result.bed_presence =
+        smoothstep(static_cast<float>(kSmallestScale * kSmallestScale), static_cast<float>(kClosedRatio),
+                   static_cast<float>(state.unhealed_ratio));
+    result.scar = scar_at(healing, day);
     result.border_warp = make_warp(wound.flow, state.border_ratio, rung);
     result.bed_warp = state.unhealed_ratio == state.border_ratio
                           ? result.border_warp

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "wound/healing.hpp"
+#include "wound/scar.hpp"
 #include "wound/warp.hpp"
 
 namespace wound {
@@ -49,6 +50,8 @@ struct WoundDay
     double border_ratio = 1;   // area inside the outer border / initial area; equals unhealed_ratio for pure contraction
     double recovery_ratio = 0; // 1 - unhealed_ratio, clamped to 0..1
     double depth_scale = 1;    // sqrt(unhealed_ratio), at most 1
+    double bed_presence = 1;   // 1 until closure, then 0 by the time the bed is a texel wide: the last of it fades
+    ScarState scar;            // the look of what is inside the border and outside the bed
     Warp border_warp, bed_warp; // backward maps: today's patch coordinates -> day 0's
 };
 
