@@ -17,7 +17,8 @@ cv::Mat1f disk(int size, cv::Point2d center, double radius)
     for (int j = 0; j < size; ++j)
         for (int i = 0; i < size; ++i) {
             const cv::Point2d p((i + .5) * 2 / size - 1, (j + .5) * 2 / size - 1);
-            mask(j, i) = static_cast<float>(std::clamp((radius - cv::norm(p - center)) * size / 2 + .5, 0., 1.));
+            mask(j, i) =
+                static_cast<float>(std::clamp((radius - cv::norm(p - center)) * size / 2 + .5, 0., 1.));
         }
     return mask;
 }
@@ -35,7 +36,7 @@ TEST(Contour, BorderOfADiskLiesOnItsCircle)
     const Polyline border = wound::border_of(disk(256, {.1, -.2}, .45));
     for (cv::Point2d p : border)
         EXPECT_NEAR(cv::norm(p - cv::Point2d(.1, -.2)), .45, 8e-4); // a tenth of a texel
-    EXPECT_GT(wound::signed_area(border), 0);                         // counter-clockwise on screen
+    EXPECT_GT(wound::signed_area(border), 0);                       // counter-clockwise on screen
     EXPECT_NEAR(wound::signed_area(border), std::numbers::pi * .45 * .45, 1e-3);
 }
 
@@ -81,9 +82,11 @@ TEST(Contour, ControlPointsLieOnTheBorderAndOnALine)
     for (cv::Point2d p : points) {
         EXPECT_NEAR(cv::norm(p - center), .45, 1e-3);
         const cv::Point2d cell = (p - center) / spacing;
-        on_a_line += std::min(std::abs(cell.x - std::round(cell.x)), std::abs(cell.y - std::round(cell.y))) < 1e-6;
+        on_a_line +=
+            std::min(std::abs(cell.x - std::round(cell.x)), std::abs(cell.y - std::round(cell.y))) < 1e-6;
     }
-    EXPECT_GE(on_a_line, static_cast<int>(points.size()) - 16); // the others are middles of near-coincident crossings
+    EXPECT_GE(on_a_line,
+              static_cast<int>(points.size()) - 16); // the others are middles of near-coincident crossings
 }
 
 TEST(Contour, NearCoincidentCrossingsAreMerged)
@@ -116,7 +119,8 @@ TEST(Contour, SpacingFollowsCurvature)
             flower(j, i) = static_cast<float>(std::clamp((radius - cv::norm(p)) * 256 + .5, 0., 1.));
         }
     const Polyline lobed = wound::border_of(flower);
-    EXPECT_LT(wound::spacing_from_curvature(lobed, {0, 0}), .6 * wound::spacing_from_curvature(round, {0, 0}));
+    EXPECT_LT(wound::spacing_from_curvature(lobed, {0, 0}),
+              .6 * wound::spacing_from_curvature(round, {0, 0}));
 }
 
 TEST(Contour, MirroringTheMaskMirrorsTheControlPoints)

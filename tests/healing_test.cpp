@@ -19,7 +19,8 @@ long double reference(const H3& c, double day)
     const long double x = c.theta * t;
     const long double root = std::sqrt(1 + x * x);
     const long double decline = x >= 0 ? 1 / (root + x) : root - x; // exp(-asinh x)
-    return std::exp(-static_cast<long double>(c.delta) * std::pow(t, static_cast<long double>(c.gamma))) * decline;
+    return std::exp(-static_cast<long double>(c.delta) * std::pow(t, static_cast<long double>(c.gamma))) *
+           decline;
 }
 
 TEST(Healing, H3EqualsItsDefinitionInWiderArithmetic)
@@ -46,8 +47,10 @@ TEST(Healing, H3SolvesItsDifferentialEquation)
     const H3 curve{.2251, 1.316, -.361, .1};
     for (double t : {.3, 2., 7., 15.}) {
         const double h = 1e-5;
-        const double slope = (wound::unhealed_ratio(curve, t + h) - wound::unhealed_ratio(curve, t - h)) / (2 * h);
-        const double rate = curve.delta * curve.gamma * std::pow(t, curve.gamma - 1) + curve.theta / std::hypot(1, curve.theta * t);
+        const double slope =
+            (wound::unhealed_ratio(curve, t + h) - wound::unhealed_ratio(curve, t - h)) / (2 * h);
+        const double rate = curve.delta * curve.gamma * std::pow(t, curve.gamma - 1) +
+                            curve.theta / std::hypot(1, curve.theta * t);
         EXPECT_NEAR(slope, (curve.asymptote - wound::unhealed_ratio(curve, t)) * rate, 1e-8);
     }
 }

@@ -47,7 +47,8 @@ Polyline cut() // 20 : 1
     Polyline curve;
     for (int i = 0; i < 400; ++i) {
         const double angle = -i * std::numbers::pi / 200;
-        curve.emplace_back(.45 * std::copysign(std::sqrt(std::abs(std::cos(angle))), std::cos(angle)), .0225 * std::sin(angle));
+        curve.emplace_back(.45 * std::copysign(std::sqrt(std::abs(std::cos(angle))), std::cos(angle)),
+                           .0225 * std::sin(angle));
     }
     return curve;
 }
@@ -76,7 +77,9 @@ const std::vector<Shape>& shapes()
         std::vector<std::pair<std::string, Polyline>> drawn{
             {"circle", polar([](double) { return .45; })},
             {"star", polar([](double a) { return .32 + .12 * std::cos(5 * a); })},
-            {"ragged", polar([](double a) { return .36 + .05 * std::sin(3 * a + 1) + .03 * std::sin(7 * a) + .015 * std::sin(17 * a + 2); })},
+            {"ragged", polar([](double a) {
+                 return .36 + .05 * std::sin(3 * a + 1) + .03 * std::sin(7 * a) + .015 * std::sin(17 * a + 2);
+             })},
             {"crescent", crescent()},
             {"cut", cut()}};
         Polyline edge = polar([](double) { return .28; });
@@ -86,7 +89,8 @@ const std::vector<Shape>& shapes()
         std::vector<Shape> result;
         for (auto& [name, border] : drawn) {
             const cv::Point2d centroid = centroid_of(border);
-            const auto points = wound::control_points(border, centroid, wound::spacing_from_curvature(border, centroid));
+            const auto points =
+                wound::control_points(border, centroid, wound::spacing_from_curvature(border, centroid));
             result.push_back({name, border, centroid, wound::prepare_flow(border, points, centroid)});
         }
         return result;
@@ -94,7 +98,8 @@ const std::vector<Shape>& shapes()
     return all;
 }
 
-/// Area of what a backward warp shows of the inside of `border`, from fine samples of today's neighbourhood of the wound.
+/// Area of what a backward warp shows of the inside of `border`, from fine samples of today's neighbourhood
+/// of the wound.
 double warped_area(const Shape& shape, const Warp& warp)
 {
     constexpr int kMask = 4096, kSamples = 400, kShift = 6;
@@ -113,7 +118,8 @@ double warped_area(const Shape& shape, const Warp& warp)
         for (int j = rows.start; j < rows.end; ++j)
             for (int i = 0; i < kSamples; ++i) {
                 const cv::Point2d unit((i + .5) / kSamples * 2 - 1, (j + .5) / kSamples * 2 - 1);
-                const cv::Point2d p = (warp.apply(shape.centroid + reach * unit) + cv::Point2d(1, 1)) * (kMask / 2);
+                const cv::Point2d p =
+                    (warp.apply(shape.centroid + reach * unit) + cv::Point2d(1, 1)) * (kMask / 2);
                 if (p.x >= 0 && p.y >= 0 && p.x < kMask && p.y < kMask)
                     count[j] += inside(static_cast<int>(p.y), static_cast<int>(p.x));
             }
@@ -143,12 +149,15 @@ TEST(Warp, ControlPointsAndCentroidGoWhereEquationOneSays)
 TEST(Warp, WarpedAreaIsTheRatioOnEveryFoldFreeRung)
 {
     for (const Shape& shape : shapes())
-        for (WarpRung rung : {WarpRung::radial, WarpRung::grid}) { // composed: within a quarter texel of grid, tested below
+        for (WarpRung rung : {WarpRung::radial, WarpRung::grid})
+        { // composed: within a quarter texel of grid, tested below
             const double day0 = warped_area(shape, Warp{});
-            EXPECT_NEAR(day0 / wound::signed_area(shape.border), 1, .025); // filling takes the outline's pixels too
+            EXPECT_NEAR(day0 / wound::signed_area(shape.border), 1,
+                        .025); // filling takes the outline's pixels too
             for (double r : {.9, .6, .4, .2, .1, .05}) {
                 const double ratio = warped_area(shape, wound::make_warp(shape.flow, r, rung)) / day0;
-                EXPECT_NEAR(ratio / r, 1, .02) << shape.name << " " << r << " rung " << static_cast<int>(rung);
+                EXPECT_NEAR(ratio / r, 1, .02)
+                    << shape.name << " " << r << " rung " << static_cast<int>(rung);
                 EXPECT_NEAR(ratio, r, .005) << shape.name;
             }
         }
@@ -162,11 +171,14 @@ TEST(Warp, NeverFoldsDownToOnePercent)
                 if (r > 1 && shape.name == "near the frame")
                     continue; // it would grow out of the patch
                 const auto check = wound::check_folds(wound::make_warp(shape.flow, r, rung), 512);
-                EXPECT_EQ(check.folded_texels, 0) << shape.name << " " << r << " rung " << static_cast<int>(rung);
+                EXPECT_EQ(check.folded_texels, 0)
+                    << shape.name << " " << r << " rung " << static_cast<int>(rung);
                 EXPECT_GT(check.least_jacobian, 0);
             }
     for (const Shape& shape : shapes())
-        EXPECT_EQ(wound::check_folds(wound::make_warp(shape.flow, .01, WarpRung::composed), 100).folded_texels, 0) << shape.name;
+        EXPECT_EQ(
+            wound::check_folds(wound::make_warp(shape.flow, .01, WarpRung::composed), 100).folded_texels, 0)
+            << shape.name;
 }
 
 TEST(Warp, OneThinPlateStepFoldsWhichIsWhyStepsAreComposed)
@@ -179,7 +191,8 @@ TEST(Warp, GridIsWithinAQuarterTexelOfTheComposedMap)
 {
     for (const Shape& shape : shapes())
         for (double r : {1.2, .4, .05, .01}) {
-            const cv::Mat2d exact = wound::backward_map(wound::make_warp(shape.flow, r, WarpRung::composed), 80);
+            const cv::Mat2d exact =
+                wound::backward_map(wound::make_warp(shape.flow, r, WarpRung::composed), 80);
             const cv::Mat2d grid = wound::backward_map(wound::make_warp(shape.flow, r, WarpRung::grid), 80);
             double worst = 0;
             for (int j = 0; j < 80; ++j)
@@ -198,7 +211,8 @@ TEST(Warp, FrameAndCentroidStay)
                 EXPECT_LT(cv::norm(warp.apply(shape.centroid) - shape.centroid), .03 * .45) << shape.name;
                 for (double t = -1; t <= 1; t += .01)
                     for (cv::Point2d p : {cv::Point2d(t, -1), {t, 1}, {-1, t}, {1, t}})
-                        EXPECT_LT(cv::norm(warp.apply(p) - p) * 256, .75) << shape.name << " " << r; // texels of 512
+                        EXPECT_LT(cv::norm(warp.apply(p) - p) * 256, .75)
+                            << shape.name << " " << r; // texels of 512
             }
 }
 

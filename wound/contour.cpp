@@ -37,8 +37,8 @@ struct ArcLength
 };
 
 /// Arc lengths at which lines axis = origin + k spacing cross the curve.
-void add_crossings(const Polyline& curve, const ArcLength& arc, double cv::Point2d::*axis, double origin, double spacing,
-                   std::vector<double>& lengths)
+void add_crossings(const Polyline& curve, const ArcLength& arc, double cv::Point2d::*axis, double origin,
+                   double spacing, std::vector<double>& lengths)
 {
     for (std::size_t i = 0; i < curve.size(); ++i) {
         const cv::Point2d p = curve[i];
@@ -120,8 +120,10 @@ double straying(const Polyline& border, const Polyline& points)
 
 double widest_extent(const Polyline& border)
 {
-    const auto [left, right] = std::minmax_element(border.begin(), border.end(), [](auto a, auto b) { return a.x < b.x; });
-    const auto [top, bottom] = std::minmax_element(border.begin(), border.end(), [](auto a, auto b) { return a.y < b.y; });
+    const auto [left, right] =
+        std::minmax_element(border.begin(), border.end(), [](auto a, auto b) { return a.x < b.x; });
+    const auto [top, bottom] =
+        std::minmax_element(border.begin(), border.end(), [](auto a, auto b) { return a.y < b.y; });
     return std::max(right->x - left->x, bottom->y - top->y);
 }
 
@@ -129,7 +131,8 @@ double widest_extent(const Polyline& border)
 
 std::vector<Polyline> level_curves(const cv::Mat1f& coverage, float level)
 {
-    // Cells lie between texel centres, one ring of zeros around. An edge of the lattice is named by its low end and direction.
+    // Cells lie between texel centres, one ring of zeros around. An edge of the lattice is named by its low
+    // end and direction.
     const int width = coverage.cols + 2;
     const auto value = [&](int x, int y) {
         const bool inside = x >= 1 && y >= 1 && x <= coverage.cols && y <= coverage.rows;
@@ -143,16 +146,20 @@ std::vector<Polyline> level_curves(const cv::Mat1f& coverage, float level)
         const double column = x - 1 + (direction == 0 ? t : 0), row = y - 1 + (direction == 1 ? t : 0);
         return cv::Point2d((column + .5) * 2 / coverage.cols - 1, (row + .5) * 2 / coverage.rows - 1);
     };
-    // Within each cell the curve runs from one crossed edge to another with the inside on its left as seen on screen.
+    // Within each cell the curve runs from one crossed edge to another with the inside on its left as seen on
+    // screen.
     std::unordered_map<int, int> next;
     for (int y = 0; y <= coverage.rows; ++y)
         for (int x = 0; x < width - 1; ++x) {
             const bool tl = value(x, y) >= level, tr = value(x + 1, y) >= level;
             const bool bl = value(x, y + 1) >= level, br = value(x + 1, y + 1) >= level;
-            const int top = edge_name(x, y, 0), left = edge_name(x, y, 1), bottom = edge_name(x, y + 1, 0), right = edge_name(x + 1, y, 1);
-            const std::array<std::array<int, 3>, 4> sides{{{top, tl, tr}, {right, tr, br}, {bottom, br, bl}, {left, bl, tl}}};
-            // Clockwise around the cell, a side that goes from outside to inside is where the curve leaves; the next side (again
-            // clockwise) that goes from inside to outside is where it enters. This also separates the two inside corners of a saddle.
+            const int top = edge_name(x, y, 0), left = edge_name(x, y, 1), bottom = edge_name(x, y + 1, 0),
+                      right = edge_name(x + 1, y, 1);
+            const std::array<std::array<int, 3>, 4> sides{
+                {{top, tl, tr}, {right, tr, br}, {bottom, br, bl}, {left, bl, tl}}};
+            // Clockwise around the cell, a side that goes from outside to inside is where the curve leaves;
+            // the next side (again clockwise) that goes from inside to outside is where it enters. This also
+            // separates the two inside corners of a saddle.
             for (int i = 0; i < 4; ++i)
                 if (sides[i][1] == 0 && sides[i][2] == 1)
                     for (int k = 1; k < 4; ++k)
@@ -184,7 +191,8 @@ Polyline border_of(const cv::Mat1f& coverage)
     std::vector<Polyline> curves = level_curves(coverage);
     if (curves.empty())
         throw std::invalid_argument("border_of: the mask is empty");
-    return *std::max_element(curves.begin(), curves.end(), [](const auto& a, const auto& b) { return signed_area(a) < signed_area(b); });
+    return *std::max_element(curves.begin(), curves.end(),
+                             [](const auto& a, const auto& b) { return signed_area(a) < signed_area(b); });
 }
 
 double signed_area(const Polyline& curve)
@@ -220,7 +228,7 @@ Polyline control_points(const Polyline& border, cv::Point2d centroid, double spa
     constexpr int kTries = 40; // each changes the spacing by a quarter; more would be another shape
     for (int i = 0; i < kTries && static_cast<int>(points.size()) < kFewestControlPoints; ++i)
         points = crossings(border, centroid, spacing *= .8);
-    for (int i = 0; i < kTries && static_cast<int>(points.size()) > kMostControlPoints; ++i)
+    for (int i = 0; i<kTries&& static_cast<int>(points.size())> kMostControlPoints; ++i)
         points = crossings(border, centroid, spacing *= 1.25);
     return points;
 }

@@ -1,5 +1,5 @@
-// The wound's border, centroid and control points from its mask (Choi & Chin 2014, section 3, Fig. 1b). Patch coordinates throughout
-// (wound/wound.hpp): the mask is square.
+// The wound's border, centroid and control points from its mask (Choi & Chin 2014, section 3, Fig. 1b). Patch
+// coordinates throughout (wound/wound.hpp): the mask is square.
 #pragma once
 #include <opencv2/core.hpp>
 #include <vector>
@@ -8,8 +8,8 @@ namespace wound {
 
 using Polyline = std::vector<cv::Point2d>; // closed: the last point is joined to the first
 
-/// Coverage 0..1 to the .5 level set, by marching squares: every closed curve, subpixel, counter-clockwise as seen on
-/// screen around what is inside. Pixels outside the mask count as 0.
+/// Coverage 0..1 to the .5 level set, by marching squares: every closed curve, subpixel, counter-clockwise as
+/// seen on screen around what is inside. Pixels outside the mask count as 0.
 std::vector<Polyline> level_curves(const cv::Mat1f& coverage, float level = .5F);
 
 /// The outer border of the largest component: the level curve of the largest area.
@@ -23,20 +23,22 @@ struct Moments
     double area = 0; // patch units squared
     cv::Point2d centroid;
 };
-/// Centroid by the first moments of the coverage (Sonka, Hlavac, Boyle 1998), which an antialiased mask makes subpixel.
+/// Centroid by the first moments of the coverage (Sonka, Hlavac, Boyle 1998), which an antialiased mask makes
+/// subpixel.
 Moments moments_of(const cv::Mat1f& coverage);
 
 inline constexpr int kFewestControlPoints = 8;
 inline constexpr int kMostControlPoints = 512;
 
-/// Where lines x = centroid.x + k spacing and y = centroid.y + k spacing cross the border, in order along it. Crossings nearer than
-/// a quarter of the spacing along the border become one, in their middle. The spacing shrinks until there are at least
-/// kFewestControlPoints, and grows until there are at most kMostControlPoints.
+/// Where lines x = centroid.x + k spacing and y = centroid.y + k spacing cross the border, in order along it.
+/// Crossings nearer than a quarter of the spacing along the border become one, in their middle. The spacing
+/// shrinks until there are at least kFewestControlPoints, and grows until there are at most
+/// kMostControlPoints.
 Polyline control_points(const Polyline& border, cv::Point2d centroid, double spacing);
 
-/// The widest spacing at which straight lines between the control points stray from the border by at most `tolerance` of the
-/// square root of the area it encloses: narrow on a strongly curved border, wide on a smooth one. Between a 48th and a 12th of
-/// the wound's extent.
+/// The widest spacing at which straight lines between the control points stray from the border by at most
+/// `tolerance` of the square root of the area it encloses: narrow on a strongly curved border, wide on a
+/// smooth one. Between a 48th and a 12th of the wound's extent.
 double spacing_from_curvature(const Polyline& border, cv::Point2d centroid, double tolerance = .012);
 
 } // namespace wound

@@ -18,24 +18,26 @@ struct Site
     double soft_tissue_mm; // skin to bone
 };
 
-// Dermis: thickest on the lower side of the nose (1.97 mm), thinnest on the upper eyelid (.76 mm) (Chopra et al. 2015, Aesthetic Surgery Journal
-// 35(8):1007); forehead 2.8 times the eyelid's skin (Ha et al. 2005, Plast. Reconstr. Surg. 115(6):1769); the other sites within
-// the 1.1 to 1.9 mm of six facial regions (Selcuk Med. J., "Epidermis, dermis and total skin thicknesses from six different face regions").
-// Soft tissue to the bone: after the pooled means for adults of Stephan & Simpson 2008, J. Forensic Sci. 53(6):1257, rounded.
+// Dermis: thickest on the lower side of the nose (1.97 mm), thinnest on the upper eyelid (.76 mm) (Chopra et
+// al. 2015, Aesthetic Surgery Journal 35(8):1007); forehead 2.8 times the eyelid's skin (Ha et al. 2005,
+// Plast. Reconstr. Surg. 115(6):1769); the other sites within the 1.1 to 1.9 mm of six facial regions (Selcuk
+// Med. J., "Epidermis, dermis and total skin thicknesses from six different face regions"). Soft tissue to
+// the bone: after the pooled means for adults of Stephan & Simpson 2008, J. Forensic Sci. 53(6):1257,
+// rounded.
 const Site kSites[] = {
-    {{0, .60}, 1.7, 5.5},    // forehead, glabella
-    {{.35, .75}, 1.7, 5},    // forehead, side
-    {{.30, .42}, 1.5, 6},    // brow
-    {{.30, .28}, .76, 4},    // upper eyelid
-    {{.30, .12}, .9, 7},     // lower eyelid
-    {{0, .25}, 1.3, 4},      // bridge of the nose
-    {{0, 0}, 1.97, 5},       // tip and lower side of the nose
-    {{.50, -.10}, 1.5, 19},  // cheek
-    {{.70, .15}, 1.5, 8},    // cheekbone
-    {{.75, -.35}, 1.5, 14},  // jaw
-    {{0, -.25}, 1.3, 11},    // upper lip
-    {{0, -.50}, 1.2, 12},    // lower lip
-    {{0, -.75}, 1.5, 11},    // chin
+    {{0, .60}, 1.7, 5.5},   // forehead, glabella
+    {{.35, .75}, 1.7, 5},   // forehead, side
+    {{.30, .42}, 1.5, 6},   // brow
+    {{.30, .28}, .76, 4},   // upper eyelid
+    {{.30, .12}, .9, 7},    // lower eyelid
+    {{0, .25}, 1.3, 4},     // bridge of the nose
+    {{0, 0}, 1.97, 5},      // tip and lower side of the nose
+    {{.50, -.10}, 1.5, 19}, // cheek
+    {{.70, .15}, 1.5, 8},   // cheekbone
+    {{.75, -.35}, 1.5, 14}, // jaw
+    {{0, -.25}, 1.3, 11},   // upper lip
+    {{0, -.50}, 1.2, 12},   // lower lip
+    {{0, -.75}, 1.5, 11},   // chin
 };
 constexpr double kThickestSubcutis = 9; // mm, Table 1; what lies deeper is muscle
 
@@ -45,7 +47,10 @@ cv::Vec3f masked_mean(const cv::Mat3f& image, const cv::Mat1b& where)
     return {static_cast<float>(mean[0]), static_cast<float>(mean[1]), static_cast<float>(mean[2])};
 }
 
-double hue_deg(const cv::Vec3f& lab) { return std::atan2(lab[2], lab[1]) * 180 / std::numbers::pi; }
+double hue_deg(const cv::Vec3f& lab)
+{
+    return std::atan2(lab[2], lab[1]) * 180 / std::numbers::pi;
+}
 
 double smoothstep(double low, double high, double x)
 {
@@ -71,7 +76,8 @@ TissueThickness tissue_thickness(cv::Point2d face)
     double weights = 0, dermis = 0, soft = 0;
     for (const Site& site : kSites) {
         const cv::Point2d offset = place - site.face;
-        // Inverse powers rather than Gaussians: far from every site the nearest ones still decide, without 0/0.
+        // Inverse powers rather than Gaussians: far from every site the nearest ones still decide, without
+        // 0/0.
         const double squared = offset.dot(offset) / (kReach * kReach);
         const double weight = 1 / ((1 + squared) * (1 + squared) * (1 + squared));
         weights += weight;
@@ -86,8 +92,9 @@ TissueThickness tissue_thickness(cv::Point2d face)
 
 double layer_reached(const cv::Vec3f& lab, const cv::Vec3f& skin)
 {
-    // The dermis shows by its blood: the hue turns from the skin's yellowish towards red, the colour grows more saturated. Fat
-    // shows yellower than skin; dried or deep tissue much darker. Skin itself scatters by about 5 CIELAB units.
+    // The dermis shows by its blood: the hue turns from the skin's yellowish towards red, the colour grows
+    // more saturated. Fat shows yellower than skin; dried or deep tissue much darker. Skin itself scatters by
+    // about 5 CIELAB units.
     const double difference = cv::norm(lab - skin);
     const double exposed = smoothstep(5, 14, difference); // 0: epidermis intact
     const double redder = smoothstep(4, 30, lab[1] - skin[1]);
@@ -99,7 +106,8 @@ double layer_reached(const cv::Vec3f& lab, const cv::Vec3f& skin)
     return exposed * (1 + within_dermis * exposed + within_subcutis * exposed);
 }
 
-cv::Mat1f depth_map(const cv::Mat3f& color, const cv::Mat1f& mask, double width_mm, const DepthOptions& options)
+cv::Mat1f depth_map(const cv::Mat3f& color, const cv::Mat1f& mask, double width_mm,
+                    const DepthOptions& options)
 {
     CV_Assert(color.size() == mask.size() && width_mm > 0);
     const double texel_mm = width_mm / mask.cols;
@@ -117,7 +125,8 @@ cv::Mat1f depth_map(const cv::Mat3f& color, const cv::Mat1f& mask, double width_
     cv::Mat1f depth(mask.size());
     std::transform(lab.begin(), lab.end(), depth.begin(), [&](const cv::Vec3f& pixel) {
         const double layer = layer_reached(pixel, skin);
-        return static_cast<float>(tissue.epidermis * std::min(layer, 1.) + tissue.dermis * std::clamp(layer - 1, 0., 1.) +
+        return static_cast<float>(tissue.epidermis * std::min(layer, 1.) +
+                                  tissue.dermis * std::clamp(layer - 1, 0., 1.) +
                                   tissue.subcutis * std::clamp(layer - 2, 0., 1.));
     });
     cv::Mat1f weight;
@@ -132,8 +141,10 @@ cv::Mat1f depth_map(const cv::Mat3f& color, const cv::Mat1f& mask, double width_
             const double out_mm = std::max(outward(j, i) - .5, 0.) * texel_mm;
             const double wall = smoothstep(0, wall_mm, in_mm);
             // The rim rises within a third of its width and falls off smoothly over the rest.
-            const double rim = smoothstep(0, rim_mm / 3, out_mm) * (1 - smoothstep(rim_mm / 3, rim_mm, out_mm));
-            depth(j, i) = inside(j, i) ? static_cast<float>(depth(j, i) * wall) : static_cast<float>(-options.rim_swelling_mm * rim);
+            const double rim =
+                smoothstep(0, rim_mm / 3, out_mm) * (1 - smoothstep(rim_mm / 3, rim_mm, out_mm));
+            depth(j, i) = inside(j, i) ? static_cast<float>(depth(j, i) * wall)
+                                       : static_cast<float>(-options.rim_swelling_mm * rim);
         }
     return depth;
 }

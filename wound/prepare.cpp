@@ -19,7 +19,8 @@ float smoothstep(float low, float high, float x)
     return t * t * (3 - 2 * t);
 }
 
-/// Fills what is not part of the picture with the mean of nearby picture, so that no black leaks into blurred or pulled skin.
+/// Fills what is not part of the picture with the mean of nearby picture, so that no black leaks into blurred
+/// or pulled skin.
 void fill_outside(cv::Mat3f& color, const cv::Mat1f& picture)
 {
     cv::Mat3f weight, sum;
@@ -29,7 +30,8 @@ void fill_outside(cv::Mat3f& color, const cv::Mat1f& picture)
     cv::GaussianBlur(color.mul(weight), sum, {}, sigma);
     cv::GaussianBlur(picture, mass, {}, sigma);
     const cv::Scalar whole = cv::mean(color, picture > .5F);
-    const cv::Vec3f mean(static_cast<float>(whole[0]), static_cast<float>(whole[1]), static_cast<float>(whole[2]));
+    const cv::Vec3f mean(static_cast<float>(whole[0]), static_cast<float>(whole[1]),
+                         static_cast<float>(whole[2]));
     for (int j = 0; j < color.rows; ++j)
         for (int i = 0; i < color.cols; ++i) {
             const cv::Vec3f nearby = (sum(j, i) + 1e-3F * mean) / (mass(j, i) + 1e-3F);
@@ -37,7 +39,8 @@ void fill_outside(cv::Mat3f& color, const cv::Mat1f& picture)
         }
 }
 
-/// 1 in the wound and close around it, falling to 0 within the surrounding skin and well inside the patch's frame.
+/// 1 in the wound and close around it, falling to 0 within the surrounding skin and well inside the patch's
+/// frame.
 cv::Mat1f first_opacity(const cv::Mat1f& mask, const cv::Mat1f& picture)
 {
     cv::Mat1f outward, to_gap;
@@ -47,12 +50,14 @@ cv::Mat1f first_opacity(const cv::Mat1f& mask, const cv::Mat1f& picture)
     cv::Mat1f opacity(mask.size());
     for (int j = 0; j < mask.rows; ++j)
         for (int i = 0; i < mask.cols; ++i) {
-            const float x = (static_cast<float>(i) + .5F) * unit - 1, y = (static_cast<float>(j) + .5F) * unit - 1;
+            const float x = (static_cast<float>(i) + .5F) * unit - 1,
+                        y = (static_cast<float>(j) + .5F) * unit - 1;
             const float skin = 1 - smoothstep(.02F, .32F, outward(j, i) * unit);
             const float frame = 1 - smoothstep(.7F, .92F, std::max(std::abs(x), std::abs(y)));
             opacity(j, i) = skin * frame * smoothstep(0, .1F, to_gap(j, i) * unit);
         }
-    cv::GaussianBlur(opacity, opacity, {}, mask.cols / 100.); // distances crease along the border's concavities
+    cv::GaussianBlur(opacity, opacity, {},
+                     mask.cols / 100.); // distances crease along the border's concavities
     return opacity;
 }
 
@@ -77,12 +82,14 @@ struct Resampling
             image = smooth;
         }
         cv::Mat resampled;
-        cv::warpAffine(image, resampled, to_photo, {size, size}, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, border);
+        cv::warpAffine(image, resampled, to_photo, {size, size}, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
+                       border);
         return resampled;
     }
 };
 
-/// Antialiased coverage over about two texels: a binary mask's stairs are smoothed at photo resolution, then the edge is steepened.
+/// Antialiased coverage over about two texels: a binary mask's stairs are smoothed at photo resolution, then
+/// the edge is steepened.
 cv::Mat1f resample_mask(const cv::Mat1b& mask, const Resampling& resample)
 {
     cv::Mat1f coverage;
@@ -102,9 +109,11 @@ cv::Mat1f resample_mask(const cv::Mat1b& mask, const Resampling& resample)
 void check(const Photograph& photograph, const Preparation& preparation)
 {
     if (photograph.srgb.empty())
-        throw cicatrix::InputError(preparation.where, "the photograph is empty", "give a PNG or JPEG picture");
+        throw cicatrix::InputError(preparation.where, "the photograph is empty",
+                                   "give a PNG or JPEG picture");
     if (!(preparation.width_mm >= .5 && preparation.width_mm <= 200))
-        throw cicatrix::InputError(fmt::format("{}: width_mm", preparation.where), fmt::format("{} is out of range", preparation.width_mm),
+        throw cicatrix::InputError(fmt::format("{}: width_mm", preparation.where),
+                                   fmt::format("{} is out of range", preparation.width_mm),
                                    "give the wound's longer side, from 0.5 to 200 mm");
     CV_Assert(preparation.patch_size >= 32 && preparation.patch_size <= 4096);
 }
@@ -115,7 +124,8 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
 {
     check(photograph, preparation);
     const cv::Mat1b mask = photograph.mask.empty()
-                               ? checked_mask(segment(photograph.srgb, preparation.hints, preparation.where), photograph.srgb.size(), preparation.where)
+                               ? checked_mask(segment(photograph.srgb, preparation.hints, preparation.where),
+                                              photograph.srgb.size(), preparation.where)
                                : checked_mask(photograph.mask, photograph.srgb.size(), preparation.where);
     const cv::Rect bounds = cv::boundingRect(mask);
     const cv::Moments moments = cv::moments(mask, true);
@@ -140,12 +150,15 @@ PreparedWound prepare_patch(Patch patch, const Preparation& preparation, bool ke
     PreparedWound wound;
     wound.patch = std::move(patch);
     if (!keep_depth)
-        wound.patch.depth_mm = depth_map(wound.patch.color, wound.patch.mask, wound.patch.width_mm, preparation.depth);
+        wound.patch.depth_mm =
+            depth_map(wound.patch.color, wound.patch.mask, wound.patch.width_mm, preparation.depth);
     const Moments moments = moments_of(wound.patch.mask);
     wound.centroid = moments.centroid;
     wound.area = moments.area;
     wound.border = border_of(wound.patch.mask);
-    const double spacing = preparation.control_spacing > 0 ? preparation.control_spacing : spacing_from_curvature(wound.border, wound.centroid);
+    const double spacing = preparation.control_spacing > 0
+                               ? preparation.control_spacing
+                               : spacing_from_curvature(wound.border, wound.centroid);
     wound.control_points = control_points(wound.border, wound.centroid, spacing);
     wound.flow = prepare_flow(wound.border, wound.control_points, wound.centroid);
     return wound;
@@ -170,8 +183,14 @@ WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day
         result.in_phases = true;
         result.phase = phase_at(day, closure_day(healing.curve));
     }
+    result.bed_presence =
+        smoothstep(static_cast<float>(kSmallestScale * kSmallestScale), static_cast<float>(kClosedRatio),
+                   static_cast<float>(state.unhealed_ratio));
+    result.scar = scar_at(healing, day);
     result.border_warp = make_warp(wound.flow, state.border_ratio, rung);
-    result.bed_warp = state.unhealed_ratio == state.border_ratio ? result.border_warp : make_warp(wound.flow, state.unhealed_ratio, rung);
+    result.bed_warp = state.unhealed_ratio == state.border_ratio
+                          ? result.border_warp
+                          : make_warp(wound.flow, state.unhealed_ratio, rung);
     return result;
 }
 

@@ -1,4 +1,5 @@
-// From a photograph to everything that is computed once per wound, and from there to any day (wound/wound.hpp).
+// From a photograph to everything that is computed once per wound, and from there to any day
+// (wound/wound.hpp).
 #pragma once
 #include <string>
 
@@ -16,19 +17,21 @@ struct Preparation
     double width_mm = 30;             // of the wound's longer side, on the head; 0.5..200
     int patch_size = 512;             // texels a side
     SegmentationHints hints;          // when the photograph has no mask
-    double control_spacing = 0;       // of the lines that give control points, patch units; 0: from the border's curvature
+    double control_spacing =
+        0; // of the lines that give control points, patch units; 0: from the border's curvature
     DepthOptions depth;
 };
 
-/// Segments (or checks the given mask), resamples a square patch around the centroid and measures border, control points, depth and
-/// the contraction's flow in it. The colour is the photograph's own; match_to_skin() fits it to a face.
-/// Throws cicatrix::InputError.
+/// Segments (or checks the given mask), resamples a square patch around the centroid and measures border,
+/// control points, depth and the contraction's flow in it. The colour is the photograph's own;
+/// match_to_skin() fits it to a face. Throws cicatrix::InputError.
 PreparedWound prepare(const Photograph& photograph, const Preparation& preparation);
 
 /// The same for a patch made elsewhere: color, mask and width_mm are filled; depth too when `keep_depth`.
 PreparedWound prepare_patch(Patch patch, const Preparation& preparation, bool keep_depth);
 
 /// What the wound is on a day: ratios and both backward warps.
-WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day, WarpRung rung = WarpRung::grid);
+WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day,
+                  WarpRung rung = WarpRung::grid);
 
 } // namespace wound

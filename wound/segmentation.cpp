@@ -12,10 +12,10 @@ namespace wound {
 
 namespace {
 
-constexpr int kWorkingSize = 512; // pixels on the longer side
+constexpr int kWorkingSize = 400; // pixels on the longer side
 constexpr int kClusters = 8;
-constexpr int kGrabCutIterations = 6;
-constexpr double kLeastContrast = 7; // CIELAB distance across a wound's border, on average
+constexpr int kGrabCutIterations = 4;
+constexpr double kLeastContrast = 5; // CIELAB distance across a wound's border, on average
 constexpr int kLeastSide = 16;       // pixels of a photograph
 
 cv::Mat1b fill_holes(const cv::Mat1b& mask)
@@ -72,7 +72,8 @@ cv::Mat1b likely_wound(const Problem& problem, const cv::Mat1b& outside)
     const cv::Mat samples(static_cast<int>(colors.size()), 3, CV_32F, colors.data());
     const int clusters = std::min(kClusters, samples.rows);
     cv::theRNG().state = 1;
-    cv::kmeans(samples, clusters, labels, {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 30, .1}, 3, cv::KMEANS_PP_CENTERS);
+    cv::kmeans(samples, clusters, labels, {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 30, .1}, 3,
+               cv::KMEANS_PP_CENTERS);
 
     // Near the seed: the ellipse within the rectangle, weighted towards its middle.
     std::vector<double> near(clusters, 0.), away(clusters, 0.);
@@ -135,48 +136,59 @@ cv::Mat1b solve(const Problem& problem)
     return main_component(mask, problem.seed);
 }
 
-/// Distance between the colours just inside and just outside the mask's border, CIELAB, averaged along it; a border that is the
-/// rectangle's own counts as none.
-double border_contrast(const Problem& problem, const cv::Mat1b& mask)
+/// How wound and skin differ across the mask's border, CIELAB, averaged along it.
+struct BorderContrast
+{
+    double distance = 0;   // of the colours just inside and just outside
+    double wound_like = 0; // how much redder and darker the inside is; a limb before a dark background is not
+};
+
+/// A border that is the rectangle's own counts as none.
+BorderContrast border_contrast(const Problem& problem, const cv::Mat1b& mask)
 {
     const int area = cv::countNonZero(mask);
     if (area == 0)
-        return 0;
+        return {};
     const int step = std::max(2, static_cast<int>(.06 * std::sqrt(area)));
     std::vector<std::vector<cv::Point>> outlines;
     cv::findContours(mask, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
-    cv::Mat1f soft;
+    cv::Mat1f soft, slope_x, slope_y;
     mask.convertTo(soft, CV_32F);
     cv::GaussianBlur(soft, soft, {}, step);
-    cv::Mat3f colors;
-    cv::GaussianBlur(problem.lab, colors, {}, .5 * step);
-    cv::Mat1f slope_x, slope_y;
     cv::Sobel(soft, slope_x, CV_32F, 1, 0);
     cv::Sobel(soft, slope_y, CV_32F, 0, 1);
+    cv::Mat3f colors;
+    cv::GaussianBlur(problem.lab, colors, {}, .5 * step);
     const cv::Rect picture(cv::Point(), mask.size());
-    const cv::Rect interior(problem.rect.x + 2, problem.rect.y + 2, problem.rect.width - 4, problem.rect.height - 4);
-    double sum = 0;
-    int count = 0;
+    const cv::Rect interior(problem.rect.tl() + cv::Point(2, 2), problem.rect.br() - cv::Point(2, 2));
+    BorderContrast sum;
     for (cv::Point p : outlines.front()) {
-        ++count;
         const cv::Point2f inward(slope_x(p), slope_y(p));
         const float length = std::hypot(inward.x, inward.y);
         if (!interior.contains(p) || length == 0)
             continue;
         const cv::Point2f unit = inward * (1.5F * static_cast<float>(step) / length);
-        const cv::Point inside(cvRound(p.x + unit.x), cvRound(p.y + unit.y)), outside(cvRound(p.x - unit.x), cvRound(p.y - unit.y));
-        if (picture.contains(inside) && picture.contains(outside) && problem.picture(outside))
-            sum += cv::norm(colors(inside) - colors(outside));
+        const cv::Point inside(cvRound(p.x + unit.x), cvRound(p.y + unit.y));
+        const cv::Point outside(cvRound(p.x - unit.x), cvRound(p.y - unit.y));
+        if (!picture.contains(inside) || !picture.contains(outside) || !problem.picture(outside))
+            continue;
+        const cv::Vec3f difference = colors(inside) - colors(outside);
+        sum.distance += cv::norm(difference);
+        sum.wound_like += std::max(difference[1] - .5F * difference[0], 0.F);
     }
-    return sum / count;
+    const auto points = static_cast<double>(outlines.front().size());
+    return {sum.distance / points, sum.wound_like / points};
 }
 
 /// The rectangle and as much again around it, at most `working_size` pixels on the longer side.
 Problem pose(const cv::Mat3b& srgb, const cv::Rect& rect, cv::Point seed, int working_size)
 {
     Problem problem;
-    problem.frame = cv::Rect(rect.x - rect.width / 2, rect.y - rect.height / 2, 2 * rect.width, 2 * rect.height) & cv::Rect(cv::Point(), srgb.size());
-    const double scale = std::min(1., working_size / static_cast<double>(std::max(problem.frame.width, problem.frame.height)));
+    problem.frame =
+        cv::Rect(rect.x - rect.width / 2, rect.y - rect.height / 2, 2 * rect.width, 2 * rect.height) &
+        cv::Rect(cv::Point(), srgb.size());
+    const double scale =
+        std::min(1., working_size / static_cast<double>(std::max(problem.frame.width, problem.frame.height)));
     cv::Mat3b small;
     cv::resize(srgb(problem.frame), small, {}, scale, scale, cv::INTER_AREA);
     cv::medianBlur(small, problem.srgb, 5); // hairs, glints
@@ -184,27 +196,35 @@ Problem pose(const cv::Mat3b& srgb, const cv::Rect& rect, cv::Point seed, int wo
     problem.srgb.convertTo(unit, CV_32F, 1 / 255.);
     cv::cvtColor(unit, problem.lab, cv::COLOR_RGB2Lab);
     problem.picture = picture_area(problem.srgb);
-    const auto scaled = [&](cv::Point p) { return cv::Point(cvRound((p.x - problem.frame.x) * scale), cvRound((p.y - problem.frame.y) * scale)); };
-    problem.rect = cv::Rect(scaled(rect.tl()), scaled(rect.br())) & cv::Rect(cv::Point(), problem.srgb.size());
+    const auto scaled = [&](cv::Point p) {
+        return cv::Point(cvRound((p.x - problem.frame.x) * scale), cvRound((p.y - problem.frame.y) * scale));
+    };
+    problem.rect =
+        cv::Rect(scaled(rect.tl()), scaled(rect.br())) & cv::Rect(cv::Point(), problem.srgb.size());
     problem.seed = scaled(seed);
-    problem.seed = {std::clamp(problem.seed.x, 0, problem.srgb.cols - 1), std::clamp(problem.seed.y, 0, problem.srgb.rows - 1)};
+    problem.seed = {std::clamp(problem.seed.x, 0, problem.srgb.cols - 1),
+                    std::clamp(problem.seed.y, 0, problem.srgb.rows - 1)};
     return problem;
 }
 
-/// Without a rectangle, the one of several sizes around the seed in which the sharpest closed border is found.
+/// Without a rectangle, the one of several sizes around the seed in which the sharpest closed border is
+/// found.
 cv::Rect best_rectangle(const cv::Mat3b& srgb, const cv::Rect& bounds, cv::Point seed)
 {
     constexpr int kTrialSize = 192;
     cv::Rect best = bounds;
     double sharpest = -1;
     for (double size : {.75, .6, .48, .38, .3, .24}) {
-        const cv::Size half(static_cast<int>(.5 * size * bounds.width), static_cast<int>(.5 * size * bounds.height));
-        const cv::Rect inner(bounds.x + bounds.width / 16, bounds.y + bounds.height / 16, bounds.width * 7 / 8, bounds.height * 7 / 8);
-        const cv::Rect rect = cv::Rect(seed.x - half.width, seed.y - half.height, 2 * half.width, 2 * half.height) & inner;
+        const cv::Size half(static_cast<int>(.5 * size * bounds.width),
+                            static_cast<int>(.5 * size * bounds.height));
+        const cv::Rect inner(bounds.x + bounds.width / 16, bounds.y + bounds.height / 16,
+                             bounds.width * 7 / 8, bounds.height * 7 / 8);
+        const cv::Rect rect =
+            cv::Rect(seed.x - half.width, seed.y - half.height, 2 * half.width, 2 * half.height) & inner;
         if (rect.width < 8 || rect.height < 8)
             continue;
         const Problem problem = pose(srgb, rect, seed, kTrialSize);
-        const double contrast = border_contrast(problem, solve(problem));
+        const double contrast = border_contrast(problem, solve(problem)).wound_like;
         if (contrast > sharpest) {
             sharpest = contrast;
             best = rect;
@@ -215,8 +235,9 @@ cv::Rect best_rectangle(const cv::Mat3b& srgb, const cv::Rect& bounds, cv::Point
 
 [[noreturn]] void no_wound(std::string_view where, std::string_view why)
 {
-    throw cicatrix::InputError(where, fmt::format("no wound found: {}", why),
-                               "give a seed inside it, a rectangle around it, or a mask (--seed, --rect, --mask)");
+    throw cicatrix::InputError(
+        where, fmt::format("no wound found: {}", why),
+        "give a seed inside it, a rectangle around it, or a mask (--seed, --rect, --mask)");
 }
 
 } // namespace
@@ -224,8 +245,9 @@ cv::Rect best_rectangle(const cv::Mat3b& srgb, const cv::Rect& bounds, cv::Point
 cv::Mat1b picture_area(const cv::Mat3b& srgb)
 {
     cv::Mat1b dark(srgb.size());
-    std::transform(srgb.begin(), srgb.end(), dark.begin(),
-                   [](const cv::Vec3b& p) -> uchar { return std::max({p[0], p[1], p[2]}) < 12 ? 255 : 0; });
+    std::transform(srgb.begin(), srgb.end(), dark.begin(), [](const cv::Vec3b& p) -> uchar {
+        return std::max({p[0], p[1], p[2]}) < 12 ? 255 : 0;
+    });
     cv::Mat1i labels;
     const int count = cv::connectedComponents(dark, labels);
     std::vector<bool> touches(count, false);
@@ -245,21 +267,27 @@ cv::Mat1b segment(const cv::Mat3b& srgb, const SegmentationHints& hints, std::st
 {
     const cv::Rect whole(0, 0, srgb.cols, srgb.rows);
     if (srgb.cols < kLeastSide || srgb.rows < kLeastSide)
-        throw cicatrix::InputError(where, fmt::format("{}x{} pixels are too few", srgb.cols, srgb.rows), "give a larger photograph");
-    if (hints.rect && ((*hints.rect & whole) != *hints.rect || hints.rect->width < 8 || hints.rect->height < 8))
-        throw cicatrix::InputError(where, "the rectangle reaches outside the photograph or is under 8 pixels", "give X,Y,W,H in pixels inside it");
+        throw cicatrix::InputError(where, fmt::format("{}x{} pixels are too few", srgb.cols, srgb.rows),
+                                   "give a larger photograph");
+    if (hints.rect &&
+        ((*hints.rect & whole) != *hints.rect || hints.rect->width < 8 || hints.rect->height < 8))
+        throw cicatrix::InputError(where, "the rectangle reaches outside the photograph or is under 8 pixels",
+                                   "give X,Y,W,H in pixels inside it");
     if (hints.seed && !whole.contains(*hints.seed))
-        throw cicatrix::InputError(where, "the seed lies outside the photograph", "give X,Y in pixels inside it");
+        throw cicatrix::InputError(where, "the seed lies outside the photograph",
+                                   "give X,Y in pixels inside it");
 
     const cv::Rect bounds = cv::boundingRect(picture_area(srgb));
     if (bounds.width < kLeastSide || bounds.height < kLeastSide)
         no_wound(where, "the photograph is black");
-    const cv::Rect rect = hints.rect ? *hints.rect : best_rectangle(srgb, bounds, hints.seed.value_or((bounds.tl() + bounds.br()) / 2));
+    const cv::Rect rect =
+        hints.rect ? *hints.rect
+                   : best_rectangle(srgb, bounds, hints.seed.value_or((bounds.tl() + bounds.br()) / 2));
     const Problem problem = pose(srgb, rect, hints.seed.value_or((rect.tl() + rect.br()) / 2), kWorkingSize);
     const cv::Mat1b mask = solve(problem);
     if (cv::countNonZero(mask) < 16)
         no_wound(where, "nothing near the seed differs from its surroundings");
-    if (border_contrast(problem, mask) < kLeastContrast)
+    if (border_contrast(problem, mask).distance < kLeastContrast)
         no_wound(where, "what was found has nearly its surroundings' colour");
     cv::Mat1f coverage;
     mask.convertTo(coverage, CV_32F, 1 / 255.);
@@ -288,7 +316,9 @@ std::vector<cv::Mat1b> components(const cv::Mat1b& mask)
 cv::Mat1b checked_mask(const cv::Mat1b& mask, cv::Size photograph, std::string_view where)
 {
     if (mask.size() != photograph)
-        throw cicatrix::InputError(where, fmt::format("the mask is {}x{}, the photograph {}x{}", mask.cols, mask.rows, photograph.width, photograph.height),
+        throw cicatrix::InputError(where,
+                                   fmt::format("the mask is {}x{}, the photograph {}x{}", mask.cols,
+                                               mask.rows, photograph.width, photograph.height),
                                    "give a mask of the photograph's size");
     const cv::Mat1b binary = mask > 127;
     const int area = cv::countNonZero(binary);
@@ -299,7 +329,8 @@ cv::Mat1b checked_mask(const cv::Mat1b& mask, cv::Size photograph, std::string_v
     const cv::Mat1b wound_only = components(binary).front();
     const cv::Rect bounds = cv::boundingRect(wound_only);
     if (bounds.x == 0 || bounds.y == 0 || bounds.br().x == mask.cols || bounds.br().y == mask.rows)
-        throw cicatrix::InputError(where, "the wound touches the edge of the picture", "crop the photograph with skin on every side of the wound");
+        throw cicatrix::InputError(where, "the wound touches the edge of the picture",
+                                   "crop the photograph with skin on every side of the wound");
     return wound_only;
 }
 

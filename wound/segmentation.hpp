@@ -1,5 +1,6 @@
-// Finds the wound in a photograph without learned weights: colour clusters that the seed has and the surroundings have not, refined by
-// GrabCut (Rother, Kolmogorov, Blake 2004), largest component, holes filled.
+// Finds the wound in a photograph without learned weights: colour clusters that the seed has and the
+// surroundings have not, refined by GrabCut (Rother, Kolmogorov, Blake 2004), largest component, holes
+// filled.
 #pragma once
 #include <opencv2/core.hpp>
 #include <optional>
@@ -10,23 +11,27 @@ namespace wound {
 
 struct SegmentationHints
 {
-    std::optional<cv::Point> seed; // pixel inside the wound; default: the middle of the rectangle or the photograph
-    std::optional<cv::Rect> rect;  // pixels; the wound lies inside, near its borders is skin
+    std::optional<cv::Point>
+        seed; // pixel inside the wound; default: the middle of the rectangle or the photograph
+    std::optional<cv::Rect> rect; // pixels; the wound lies inside, near its borders is skin
 };
 
-/// 255 in the wound, of the photograph's size. `srgb` in RGB order; near-black surroundings of a cropped picture count as no part of it.
-/// Works at up to 512 pixels a side (of the rectangle and its surroundings when there is one) and maps the result back. Deterministic.
-/// Throws cicatrix::InputError (`where` names the photograph) for a photograph with no wound in it, too small a one, or hints outside it.
+/// 255 in the wound, of the photograph's size. `srgb` in RGB order; near-black surroundings of a cropped
+/// picture count as no part of it. Works at up to 400 pixels a side (of the rectangle and its surroundings
+/// when there is one) and maps the result back. Deterministic. Throws cicatrix::InputError (`where` names the
+/// photograph) for a photograph with no wound in it, too small a one, or hints outside it.
 cv::Mat1b segment(const cv::Mat3b& srgb, const SegmentationHints& hints, std::string_view where);
 
 /// 255 where there is a picture: all but near-black pixels joined to its edge (circular crops, letter boxes).
 cv::Mat1b picture_area(const cv::Mat3b& srgb);
 
-/// Every component of a mask that holds at least a twentieth of the largest one's area, largest first: several wounds in one photograph.
+/// Every component of a mask that holds at least a twentieth of the largest one's area, largest first:
+/// several wounds in one photograph.
 std::vector<cv::Mat1b> components(const cv::Mat1b& mask);
 
-/// Checks a mask that the user gives: of the photograph's size, neither empty nor full, and off the edge of the picture (a wound cut off
-/// there has an unknown border). Returns its largest component with holes filled. Throws cicatrix::InputError.
+/// Checks a mask that the user gives: of the photograph's size, neither empty nor full, and off the edge of
+/// the picture (a wound cut off there has an unknown border). Returns its largest component with holes
+/// filled. Throws cicatrix::InputError.
 cv::Mat1b checked_mask(const cv::Mat1b& mask, cv::Size photograph, std::string_view where);
 
 /// Area of the intersection / area of the union; 1 for two empty masks.

@@ -11,8 +11,12 @@ namespace {
 
 constexpr int kAnchorsPerSide = 16; // between them the frame strays by less than half a texel of 512
 
-/// r^2 log r^2, twice the thin plate's kernel, from the squared distance; 0 at 0 because the logarithm is of a positive number.
-double kernel(double squared) { return squared * std::log(squared + 1e-300); }
+/// r^2 log r^2, twice the thin plate's kernel, from the squared distance; 0 at 0 because the logarithm is of
+/// a positive number.
+double kernel(double squared)
+{
+    return squared * std::log(squared + 1e-300);
+}
 
 std::vector<cv::Point2d> frame_anchors()
 {
@@ -28,7 +32,8 @@ std::vector<cv::Point2d> frame_anchors()
 
 cv::Point2d ThinPlate::apply(cv::Point2d p) const
 {
-    // Interleaved x, y: even and odd columns of one pair of maps, so that the kernel is evaluated in vector registers.
+    // Interleaved x, y: even and odd columns of one pair of maps, so that the kernel is evaluated in vector
+    // registers.
     using Points = Eigen::Map<const Eigen::Array<double, 2, Eigen::Dynamic>>;
     const auto count = static_cast<Eigen::Index>(centers.size());
     const Points c(&centers.data()->x, 2, count);
@@ -45,14 +50,16 @@ void apply_in_place(const ThinPlate& step, std::vector<float>& x, std::vector<fl
     Eigen::Map<Eigen::ArrayXf> px(x.data(), count);
     Eigen::Map<Eigen::ArrayXf> py(y.data(), count);
     const auto affine = [&](auto component) -> Eigen::ArrayXf {
-        return static_cast<float>(step.affine[0].*component) + static_cast<float>(step.affine[1].*component) * px +
+        return static_cast<float>(step.affine[0].*component) +
+               static_cast<float>(step.affine[1].*component) * px +
                static_cast<float>(step.affine[2].*component) * py;
     };
     Eigen::ArrayXf moved_x = affine(&cv::Point2d::x);
     Eigen::ArrayXf moved_y = affine(&cv::Point2d::y);
     Eigen::ArrayXf squared(count);
     for (std::size_t i = 0; i < step.centers.size(); ++i) {
-        squared = (px - static_cast<float>(step.centers[i].x)).square() + (py - static_cast<float>(step.centers[i].y)).square();
+        squared = (px - static_cast<float>(step.centers[i].x)).square() +
+                  (py - static_cast<float>(step.centers[i].y)).square();
         squared *= (squared + 1e-30F).log();
         moved_x += static_cast<float>(step.weights[i].x) * squared;
         moved_y += static_cast<float>(step.weights[i].y) * squared;
@@ -61,7 +68,8 @@ void apply_in_place(const ThinPlate& step, std::vector<float>& x, std::vector<fl
     py += moved_y;
 }
 
-ThinPlate contraction_step(const std::vector<cv::Point2d>& control_points, cv::Point2d centroid, double from, double to)
+ThinPlate contraction_step(const std::vector<cv::Point2d>& control_points, cv::Point2d centroid, double from,
+                           double to)
 {
     ThinPlate step;
     std::vector<cv::Point2d> moves; // backward displacements

@@ -12,23 +12,31 @@ namespace wound {
 namespace {
 
 constexpr int kHullAngles = 256;
-constexpr int kHullReach = 32; // angles over which the hull is widened and smoothed
+constexpr int kHullReach = 32;       // angles over which the hull is widened and smoothed
 constexpr double kHullMargin = 1.05; // so that a blurred border is scaled as a whole
-constexpr double kCoincident = .002; // half a texel of 512: nearer control points count as one, or the system is near-singular
+constexpr double kCoincident =
+    .002; // half a texel of 512: nearer control points count as one, or the system is near-singular
 constexpr int kGridNodes = 161; // odd, so that one node is the centroid
 
-double cross(cv::Point2d a, cv::Point2d b) { return a.x * b.y - a.y * b.x; }
+double cross(cv::Point2d a, cv::Point2d b)
+{
+    return a.x * b.y - a.y * b.x;
+}
 
 /// Distance from the centroid to the patch's frame along `direction` (a unit vector).
 double distance_to_frame(cv::Point2d centroid, cv::Point2d direction)
 {
-    const double x = direction.x > 0 ? (1 - centroid.x) / direction.x : direction.x < 0 ? (-1 - centroid.x) / direction.x : 1e9;
-    const double y = direction.y > 0 ? (1 - centroid.y) / direction.y : direction.y < 0 ? (-1 - centroid.y) / direction.y : 1e9;
+    const double x = direction.x > 0   ? (1 - centroid.x) / direction.x
+                     : direction.x < 0 ? (-1 - centroid.x) / direction.x
+                                       : 1e9;
+    const double y = direction.y > 0   ? (1 - centroid.y) / direction.y
+                     : direction.y < 0 ? (-1 - centroid.y) / direction.y
+                                       : 1e9;
     return std::min(x, y);
 }
 
-/// A smooth star-shaped hull: at every angle at least as far out as the border, and nowhere far nearer than its farthest point, so
-/// that a direction without border (a crescent's hollow) is contracted too.
+/// A smooth star-shaped hull: at every angle at least as far out as the border, and nowhere far nearer than
+/// its farthest point, so that a direction without border (a crescent's hollow) is contracted too.
 std::vector<double> star_hull(const std::vector<cv::Point2d>& border, cv::Point2d centroid)
 {
     constexpr double kTurn = 2 * std::numbers::pi;
@@ -61,8 +69,8 @@ std::vector<double> star_hull(const std::vector<cv::Point2d>& border, cv::Point2
     return hull;
 }
 
-/// Within the contracted hull a plain scaling; from there to the frame radii are spread evenly. Its determinant is
-/// (radius / today's radius) x (slope along the ray) > 0 whatever the hull, so it cannot fold.
+/// Within the contracted hull a plain scaling; from there to the frame radii are spread evenly. Its
+/// determinant is (radius / today's radius) x (slope along the ray) > 0 whatever the hull, so it cannot fold.
 cv::Point2d apply_radial(const Warp& warp, cv::Point2d p)
 {
     const cv::Point2d offset = p - warp.centroid;
@@ -79,8 +87,8 @@ cv::Point2d apply_radial(const Warp& warp, cv::Point2d p)
     const double today = warp.scale * day0;
     if (radius >= frame)
         return p;
-    const double moved = radius <= today ? radius / warp.scale
-                                         : day0 + (radius - today) * (frame - day0) / (frame - today);
+    const double moved =
+        radius <= today ? radius / warp.scale : day0 + (radius - today) * (frame - day0) / (frame - today);
     return warp.centroid + offset * (moved / radius);
 }
 
@@ -100,12 +108,16 @@ int node_cell(double coordinate, double centroid, double epsilon)
 {
     const double offset = coordinate - centroid;
     const double reach = offset < 0 ? 1 + centroid : 1 - centroid;
-    const double t = std::copysign(std::asinh(std::abs(offset) / epsilon) / std::asinh(reach / epsilon), offset);
+    const double t =
+        std::copysign(std::asinh(std::abs(offset) / epsilon) / std::asinh(reach / epsilon), offset);
     return std::clamp(static_cast<int>(std::floor((t + 1) * (kGridNodes / 2))), 0, kGridNodes - 2);
 }
 
 /// The contracted wound, about scale x half a patch wide, gets as many nodes as its surroundings.
-double grid_epsilon(double scale) { return .5 * scale; }
+double grid_epsilon(double scale)
+{
+    return .5 * scale;
+}
 
 cv::Point2d apply_grid(const Warp& warp, cv::Point2d p)
 {
@@ -147,7 +159,8 @@ void fill_grid(Warp& warp, const std::vector<ThinPlate>& steps)
 {
     const double epsilon = grid_epsilon(warp.scale);
     for (int i = 0; i < kGridNodes; ++i)
-        warp.nodes.emplace_back(node_position(i, warp.centroid.x, epsilon), node_position(i, warp.centroid.y, epsilon));
+        warp.nodes.emplace_back(node_position(i, warp.centroid.x, epsilon),
+                                node_position(i, warp.centroid.y, epsilon));
     warp.grid.create(kGridNodes, kGridNodes);
     cv::parallel_for_({0, kGridNodes}, [&](const cv::Range& rows) {
         for (int j = rows.start; j < rows.end; ++j) {
@@ -167,16 +180,19 @@ void fill_grid(Warp& warp, const std::vector<ThinPlate>& steps)
 cv::Point2d Warp::apply(cv::Point2d p) const
 {
     switch (rung) {
-    case WarpRung::radial: return apply_radial(*this, p);
-    case WarpRung::grid: return apply_grid(*this, p);
+    case WarpRung::radial:
+        return apply_radial(*this, p);
+    case WarpRung::grid:
+        return apply_grid(*this, p);
     case WarpRung::dense:
-    case WarpRung::composed: return apply_steps(steps, p);
+    case WarpRung::composed:
+        return apply_steps(steps, p);
     }
     return p;
 }
 
-ContractionFlow prepare_flow(const std::vector<cv::Point2d>& border, const std::vector<cv::Point2d>& control_points,
-                             cv::Point2d centroid)
+ContractionFlow prepare_flow(const std::vector<cv::Point2d>& border,
+                             const std::vector<cv::Point2d>& control_points, cv::Point2d centroid)
 {
     ContractionFlow flow{centroid, {}, star_hull(border, centroid), {}};
     // The centroid is a control point too, which moves by D (1 - sqrt r) = 0.
@@ -191,7 +207,8 @@ ContractionFlow prepare_flow(const std::vector<cv::Point2d>& border, const std::
     flow.steps.resize(count);
     cv::parallel_for_({0, count}, [&](const cv::Range& range) {
         for (int k = range.start; k < range.end; ++k)
-            flow.steps[k] = contraction_step(flow.control_points, centroid, std::pow(kStepScale, k + 1), std::pow(kStepScale, k));
+            flow.steps[k] = contraction_step(flow.control_points, centroid, std::pow(kStepScale, k + 1),
+                                             std::pow(kStepScale, k));
     });
     return flow;
 }
@@ -203,17 +220,27 @@ Warp make_warp(const ContractionFlow& flow, double area_ratio, WarpRung rung)
     warp.scale = std::max(std::sqrt(area_ratio), kSmallestScale);
     warp.centroid = flow.centroid;
     switch (rung) {
-    case WarpRung::radial: warp.radii = flow.radii; break;
-    case WarpRung::grid: fill_grid(warp, composed_steps(flow, warp.scale)); break;
-    case WarpRung::dense: warp.steps = {contraction_step(flow.control_points, flow.centroid, warp.scale, 1)}; break;
-    case WarpRung::composed: warp.steps = composed_steps(flow, warp.scale); break;
+    case WarpRung::radial:
+        warp.radii = flow.radii;
+        break;
+    case WarpRung::grid:
+        fill_grid(warp, composed_steps(flow, warp.scale));
+        break;
+    case WarpRung::dense:
+        warp.steps = {contraction_step(flow.control_points, flow.centroid, warp.scale, 1)};
+        break;
+    case WarpRung::composed:
+        warp.steps = composed_steps(flow, warp.scale);
+        break;
     }
     return warp;
 }
 
 shared::WarpHeader pack(const Warp& warp, std::vector<shared::vec2>& values)
 {
-    const auto put = [&values](cv::Point2d p) { values.emplace_back(static_cast<float>(p.x), static_cast<float>(p.y)); };
+    const auto put = [&values](cv::Point2d p) {
+        values.emplace_back(static_cast<float>(p.x), static_cast<float>(p.y));
+    };
     shared::WarpHeader header{};
     header.center = {static_cast<float>(warp.centroid.x), static_cast<float>(warp.centroid.y)};
     header.scale = static_cast<float>(warp.scale);
@@ -283,8 +310,11 @@ FoldCheck check_folds(const Warp& warp, int size)
     const double texel_area = 4. / size / size;
     for (int j = 0; j < size; ++j)
         for (int i = 0; i < size; ++i) {
-            const cv::Point2d a(corners(j, i)), b(corners(j, i + 1)), c(corners(j + 1, i)), d(corners(j + 1, i + 1));
-            const double determinant = std::min({cross(b - a, c - a), cross(b - a, d - b), cross(d - c, c - a), cross(d - c, d - b)}) / texel_area;
+            const cv::Point2d a(corners(j, i)), b(corners(j, i + 1)), c(corners(j + 1, i)),
+                d(corners(j + 1, i + 1));
+            const double determinant = std::min({cross(b - a, c - a), cross(b - a, d - b),
+                                                 cross(d - c, c - a), cross(d - c, d - b)}) /
+                                       texel_area;
             check.folded_texels += determinant <= 0;
             check.least_jacobian = std::min(check.least_jacobian, determinant);
         }

@@ -1,9 +1,11 @@
-// The contraction of a wound as a map of the patch, backward: today's patch point -> the day-0 point whose skin lies there today.
+// The contraction of a wound as a map of the patch, backward: today's patch point -> the day-0 point whose
+// skin lies there today.
 //
-// Choi & Chin 2014, section 3: every control point moves towards the centroid by d_n = D_n (1 - sqrt r), eq. (1), and radial basis
-// functions (Arad, Dyn, Reisfeld, Yeshurun 1994; here the thin plate r^2 log r) carry the skin around it along, while the patch's
-// frame stays. In one step that map folds below r ~ 0.05, so the exact rung composes many small steps, a discretised flow.
-// Four rungs behind one interface; docs/warp.md holds their errors and costs.
+// Choi & Chin 2014, section 3: every control point moves towards the centroid by d_n = D_n (1 - sqrt r), eq.
+// (1), and radial basis functions (Arad, Dyn, Reisfeld, Yeshurun 1994; here the thin plate r^2 log r) carry
+// the skin around it along, while the patch's frame stays. In one step that map folds below r ~ 0.05, so the
+// exact rung composes many small steps, a discretised flow. Four rungs behind one interface; docs/warp.md
+// holds their errors and costs.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -14,18 +16,21 @@
 
 namespace wound {
 
-enum class WarpRung : std::uint32_t {
-    radial,   // closed form in star-shaped coordinates about the centroid; scales a hull of the border exactly, never folds
-    grid,     // the composed map on a grid that is finest at the centroid, interpolated bilinearly
-    dense,    // the paper's: one thin-plate step; folds for small r
-    composed  // thin-plate steps of at most kStepScale each: the reference
+enum class WarpRung : std::uint32_t
+{
+    radial, // closed form in star-shaped coordinates about the centroid; scales a hull of the border exactly,
+            // never folds
+    grid,   // the composed map on a grid that is finest at the centroid, interpolated bilinearly
+    dense,  // the paper's: one thin-plate step; folds for small r
+    composed // thin-plate steps of at most kStepScale each: the reference
 };
 
-inline constexpr double kStepScale = .75;     // a full step scales lengths about the centroid by this
-inline constexpr double kSmallestScale = .02; // sqrt r of the most contracted wound drawn: about a texel; below it is closed
+inline constexpr double kStepScale = .75; // a full step scales lengths about the centroid by this
+inline constexpr double kSmallestScale =
+    .02; // sqrt r of the most contracted wound drawn: about a texel; below it is closed
 
-/// One thin-plate step: p -> p + a0 + a1 x + a2 y + sum_i w_i |p-c_i|^2 log |p-c_i|^2. The last centres are anchors on the patch's
-/// frame, which hold it still.
+/// One thin-plate step: p -> p + a0 + a1 x + a2 y + sum_i w_i |p-c_i|^2 log |p-c_i|^2. The last centres are
+/// anchors on the patch's frame, which hold it still.
 struct ThinPlate
 {
     std::vector<cv::Point2d> centers, weights;
@@ -39,14 +44,15 @@ struct Warp
     WarpRung rung = WarpRung::radial;
     double scale = 1; // sqrt(area ratio)
     cv::Point2d centroid;
-    std::vector<double> radii;         // radial: of the hull at day 0, at equal angles from -pi
-    std::vector<cv::Point2d> nodes;    // grid: x and y of the i-th column and row
-    cv::Mat2d grid;                    // grid: day-0 coordinates at the nodes
-    std::vector<ThinPlate> steps;      // dense, composed: today's first
+    std::vector<double> radii;      // radial: of the hull at day 0, at equal angles from -pi
+    std::vector<cv::Point2d> nodes; // grid: x and y of the i-th column and row
+    cv::Mat2d grid;                 // grid: day-0 coordinates at the nodes
+    std::vector<ThinPlate> steps;   // dense, composed: today's first
     cv::Point2d apply(cv::Point2d p) const;
 };
 
-/// What the warps of all days share: the radial hull and the thin-plate steps at fixed scales, solved once per wound.
+/// What the warps of all days share: the radial hull and the thin-plate steps at fixed scales, solved once
+/// per wound.
 struct ContractionFlow
 {
     cv::Point2d centroid;
@@ -55,10 +61,10 @@ struct ContractionFlow
     std::vector<ThinPlate> steps; // steps[k] maps points at scale kStepScale^(k+1) back to kStepScale^k
 };
 
-/// `border` and `control_points` in patch coordinates within (-1,1). Of control points that coincide to half a texel of 512 the first is
-/// kept. Throws std::runtime_error when a system cannot be solved.
-ContractionFlow prepare_flow(const std::vector<cv::Point2d>& border, const std::vector<cv::Point2d>& control_points,
-                             cv::Point2d centroid);
+/// `border` and `control_points` in patch coordinates within (-1,1). Of control points that coincide to half
+/// a texel of 512 the first is kept. Throws std::runtime_error when a system cannot be solved.
+ContractionFlow prepare_flow(const std::vector<cv::Point2d>& border,
+                             const std::vector<cv::Point2d>& control_points, cv::Point2d centroid);
 
 /// The map for an area ratio >= 0; ratios under kSmallestScale^2 are drawn as that. Continuous in the ratio.
 Warp make_warp(const ContractionFlow& flow, double area_ratio, WarpRung rung = WarpRung::grid);
@@ -66,7 +72,8 @@ Warp make_warp(const ContractionFlow& flow, double area_ratio, WarpRung rung = W
 /// Appends the warp's numbers to `values` in the layout of shaders/shared/warp.h, in single precision.
 shared::WarpHeader pack(const Warp& warp, std::vector<shared::vec2>& values);
 
-// ---- Measuring and using warps on the CPU ---------------------------------------------------------------------------
+// ---- Measuring and using warps on the CPU
+// ---------------------------------------------------------------------------
 
 /// Day-0 patch coordinates at the centres of size x size texels.
 cv::Mat2d backward_map(const Warp& warp, int size);
@@ -75,7 +82,7 @@ cv::Mat warp_image(const cv::Mat& image, const Warp& warp);
 
 struct FoldCheck
 {
-    int folded_texels = 0;    // with a non-positive determinant
+    int folded_texels = 0;     // with a non-positive determinant
     double least_jacobian = 0; // least determinant over all texels, from the texel's corners
 };
 FoldCheck check_folds(const Warp& warp, int size);

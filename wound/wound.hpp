@@ -9,6 +9,7 @@
 #include "wound/healing.hpp"
 #include "wound/patch.hpp"
 #include "wound/phases.hpp"
+#include "wound/scar.hpp"
 #include "wound/warp.hpp"
 
 namespace wound {
@@ -35,6 +36,8 @@ struct WoundDay
     double depth_scale = 1;    // sqrt(unhealed_ratio), at most 1
     bool in_phases = false;     // the bed's colour passes through the phases of healing, not only through eq. (4)
     Phase phase;
+    double bed_presence = 1;   // 1 until closure, then 0 by the time the bed is a texel wide: the last of it fades
+    ScarState scar;            // the look of what is inside the border and outside the bed
     Warp border_warp, bed_warp; // backward maps: today's patch coordinates -> day 0's
 };
 

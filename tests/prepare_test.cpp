@@ -1,0 +1,161 @@
+// From a drawn photograph to any day: invariants of the whole way.
+#include "wound/prepare.hpp"
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/wound_photographs.hpp"
+#include "wound/contour.hpp"
+#include "wound/input_error.hpp"
+
+namespace {
+
+using testing_wounds::photograph;
+
+/// Neither symmetric nor convex.
+double bean(double dx, double dy)
+{
+    const double angle = std::atan2(dy, dx);
+    return std::hypot(dx, dy) / (46 + 11 * std::cos(2 * angle + .4) + 6 * std::sin(3 * angle));
+}
+
+wound::Preparation small_patch()
+{
+    wound::Preparation preparation;
+    preparation.patch_size = 256;
+    return preparation;
+}
+
+TEST(Prepare, PutsTheCentroidInTheMiddleAndTheWidthOnTheWound)
+{
+    const auto photo = photograph({260, 220}, {120, 110}, bean);
+    const auto wound = wound::prepare(photo, small_patch());
+    EXPECT_LT(cv::norm(wound.centroid), 1e-3);
+    const cv::Rect bounds = cv::boundingRect(wound.patch.mask > .5F);
+    EXPECT_NEAR(std::max(bounds.width, bounds.height), .45 * 256, 2.5);
+    EXPECT_NEAR(wound.patch.width_mm * .45, 30, 1e-9);
+    const double pixels_per_patch =
+        std::max(cv::boundingRect(photo.mask).width, cv::boundingRect(photo.mask).height) / .45;
+    EXPECT_NEAR(wound.area * pixels_per_patch * pixels_per_patch / 4, cv::countNonZero(photo.mask),
+                .01 * cv::countNonZero(photo.mask));
+    EXPECT_GE(wound.control_points.size(), 8U);
+    EXPECT_LE(wound.control_points.size(), 512U);
+    EXPECT_NEAR(wound::signed_area(wound.border), wound.area, .01 * wound.area);
+}
+
+TEST(Prepare, MapsHaveTheirRangesAndTheOpacityFallsToZeroInside)
+{
+    const auto wound = wound::prepare(photograph({260, 220}, {120, 110}, bean), small_patch());
+    for (const cv::Mat& map :
+         {cv::Mat(wound.patch.color), cv::Mat(wound.patch.opacity), cv::Mat(wound.patch.mask)})
+    {
+        EXPECT_TRUE(cv::checkRange(map, true, nullptr, -1e-6, 1 + 1e-6));
+        EXPECT_EQ(map.size(), cv::Size(256, 256));
+    }
+    EXPECT_TRUE(cv::checkRange(wound.patch.depth_mm));
+    EXPECT_EQ(cv::countNonZero(wound.patch.opacity.row(2) > 1e-4F), 0);
+    EXPECT_GT(wound.patch.opacity(128, 128), .99F);
+}
+
+TEST(Prepare, RotatingAndMirroringThePhotographDoesSoToTheResult)
+{
+    const auto photo = photograph({240, 240}, {119.5, 119.5}, bean);
+    const auto base = wound::prepare(photo, small_patch());
+    for (int turn : {int(cv::ROTATE_90_CLOCKWISE), int(cv::ROTATE_180), -1}) {
+        wound::Photograph moved;
+        const auto move = [turn](const cv::Mat& from, auto& to) {
+            turn < 0 ? cv::flip(from, to, 1) : cv::rotate(from, to, turn);
+        };
+        move(photo.srgb, moved.srgb);
+        move(photo.mask, moved.mask);
+        const auto wound = wound::prepare(moved, small_patch());
+        EXPECT_NEAR(wound.area, base.area, 1e-3 * base.area);
+        EXPECT_EQ(wound.control_points.size(), base.control_points.size());
+        cv::Mat1f expected;
+        move(base.patch.mask, expected);
+        EXPECT_LT(cv::norm(wound.patch.mask, expected, cv::NORM_L1) / cv::sum(expected)[0], .01);
+        move(base.patch.depth_mm, expected);
+        EXPECT_LT(cv::norm(wound.patch.depth_mm, expected, cv::NORM_L1) / cv::norm(expected, cv::NORM_L1),
+                  .05);
+    }
+}
+
+TEST(Prepare, ScalingThePhotographChangesNothing)
+{
+    const auto photo = photograph({240, 240}, {120, 120}, bean);
+    wound::Photograph doubled;
+    cv::resize(photo.srgb, doubled.srgb, {}, 2, 2, cv::INTER_NEAREST);
+    cv::resize(photo.mask, doubled.mask, {}, 2, 2, cv::INTER_NEAREST);
+    const auto a = wound::prepare(photo, small_patch()), b = wound::prepare(doubled, small_patch());
+    EXPECT_NEAR(a.area, b.area, .01 * a.area);
+    EXPECT_LT(cv::norm(a.patch.mask, b.patch.mask, cv::NORM_L1) / cv::sum(a.patch.mask)[0], .02);
+}
+
+TEST(Prepare, AOnePixelWoundAndOneThatNearlyFillsThePhotographWork)
+{
+    auto photo = photograph({64, 64}, {32, 32}, [](double, double) { return 2.; });
+    photo.mask(30, 20) = 255;
+    EXPECT_GE(wound::prepare(photo, small_patch()).control_points.size(), 8U);
+    photo.mask.setTo(0);
+    photo.mask(cv::Rect(1, 1, 62, 62)).setTo(255);
+    const auto filling = wound::prepare(photo, small_patch());
+    EXPECT_EQ(wound::check_folds(wound::make_warp(filling.flow, .05), 256).folded_texels, 0);
+    EXPECT_TRUE(cv::checkRange(filling.patch.color) && cv::checkRange(filling.patch.depth_mm));
+}
+
+TEST(Prepare, WarpedMaskOfARealPipelineHasTheRatiosArea)
+{
+    const auto wound = wound::prepare(photograph({260, 220}, {120, 110}, bean), small_patch());
+    for (double r : {.9, .6, .4, .2, .1, .05}) {
+        const cv::Mat warped = wound::warp_image(wound.patch.mask, wound::make_warp(wound.flow, r));
+        const auto today = wound::moments_of(warped);
+        EXPECT_NEAR(today.area / wound.area, r, std::min(.02 * r, .005));
+        EXPECT_LT(cv::norm(today.centroid - wound.centroid), .01 * std::sqrt(r));
+    }
+}
+
+TEST(Prepare, DayZeroIsTheWoundItselfAndLaterDaysShrinkIt)
+{
+    const auto wound = wound::prepare(photograph({260, 220}, {120, 110}, bean), small_patch());
+    const wound::Healing face;
+    const auto day0 = wound::wound_at(wound, face, 0);
+    EXPECT_EQ(day0.unhealed_ratio, 1);
+    EXPECT_LT(cv::norm(day0.bed_warp.apply({.3, .2}) - cv::Point2d(.3, .2)), 1e-6);
+    double last = 1;
+    for (double day : {4., 8., 16., 28.}) {
+        const auto state = wound::wound_at(wound, face, day);
+        EXPECT_LT(state.unhealed_ratio, last);
+        EXPECT_GT(state.border_ratio, state.unhealed_ratio);
+        EXPECT_DOUBLE_EQ(state.bed_warp.scale, std::sqrt(state.unhealed_ratio));
+        EXPECT_DOUBLE_EQ(state.border_warp.scale, std::sqrt(state.border_ratio));
+        last = state.unhealed_ratio;
+    }
+}
+
+TEST(Prepare, TheLastOfTheBedFadesAfterClosure)
+{
+    const auto wound = wound::prepare(photograph({260, 220}, {120, 110}, bean), small_patch());
+    const wound::Healing face;
+    const double closed = wound::closure_day(face.curve);
+    EXPECT_EQ(wound::wound_at(wound, face, closed - 1).bed_presence, 1);
+    double last = 1, steepest = 0;
+    for (double day = closed - 1; day < closed + 20; day += 1) {
+        const auto today = wound::wound_at(wound, face, day, wound::WarpRung::radial);
+        steepest = std::max(steepest, last - today.bed_presence);
+        EXPECT_LE(today.bed_presence, last);
+        last = today.bed_presence;
+    }
+    EXPECT_EQ(last, 0);
+    EXPECT_LT(steepest, .5);
+}
+
+TEST(Prepare, BadWidthsAndEmptyPhotographsAreRefused)
+{
+    auto preparation = small_patch();
+    preparation.width_mm = std::nan("");
+    const auto photo = photograph({64, 64}, {32, 32}, bean);
+    EXPECT_THROW(wound::prepare(photo, preparation), cicatrix::InputError);
+    EXPECT_THROW(wound::prepare({}, small_patch()), cicatrix::InputError);
+}
+
+} // namespace
