@@ -5,6 +5,7 @@
 #include <exception>
 #include <fmt/format.h>
 
+#include "apps/bake.hpp"
 #include "apps/bake_head.hpp"
 #include "apps/capture.hpp"
 #include "apps/graph_command.hpp"
@@ -49,6 +50,7 @@ int main(int argc, char** argv)
         app::add_graph_command(program);
         app::add_info_command(program);
         app::add_reflect_command(program);
+        app::add_bake_command(program);
         add_bake_head_command(program);
         program.parse(argc, argv);
     }

@@ -58,7 +58,7 @@ struct Scene
 {
     std::filesystem::path head; // empty: the default head
     std::vector<WoundScene> wounds{WoundScene{}};
-    std::string tissue = "table1"; // a preset, or a tissue file
+    std::string tissue = "light"; // a preset, or a tissue file
     wound::Rung reflectance_model = wound::Rung::TwoStream;
     passes::Shading shading = corrected_shading();
     std::vector<LightScene> lights{{{-38, 28}, 0.9, false, true, {1.0, 0.96, 0.91}, 1.25},

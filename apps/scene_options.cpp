@@ -61,6 +61,7 @@ void make_published(Scene& scene)
 {
     scene.shading = published_shading();
     scene.reflectance_model = wound::Rung::Published;
+    scene.tissue = "table1";
     for (WoundScene& wound : scene.wounds)
         wound.healing.model = wound::HealingModel::contraction;
     if (!scene.lights.empty())

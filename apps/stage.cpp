@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "apps/bake.hpp"
 #include "apps/bake_head.hpp"
 #include "engine/image_io.hpp"
 #include "wound/input_error.hpp"
@@ -82,7 +83,7 @@ Stage::Props Stage::prepare(const Scene& scene)
     for (const std::string& note : props.head.notes)
         props.notes.push_back(fmt::format("{}: {}", file.string(), note));
     props.face = passes::find_face(props.head);
-    props.tissue = scene.tissue == "table1" ? wound::table1() : wound::read_tissue(scene.tissue);
+    props.tissue = healing_tissue_or_file(scene.tissue);
     const std::uint32_t skin = passes::skin_material(props.head);
 
     for (std::size_t i = 0; i < scene.wounds.size(); ++i)
@@ -113,7 +114,7 @@ Stage::Stage(const engine::Device& device, const Scene& scene, Props props)
         for (std::size_t row = 0; row < lut_rows; ++row)
         {
             const double day = passes::lut_row_day(row, lut_rows, last_day);
-            rows.push_back(wound::restored_skin(props_.tissue, wound::healing_at(scene_.wounds[i].healing, day).depth_scale));
+            rows.push_back(wound::open_bed(props_.tissue, day, wound::healing_at(scene_.wounds[i].healing, day).depth_scale));
         }
         wounds_.push_back({props_.anchors[i], passes::upload_wound(device, props_.wounds[i].patch), passes::lut_tissue(rows, last_day)});
     }

@@ -8,6 +8,7 @@
 #include "apps/scene.hpp"
 #include "engine/device.hpp"
 #include "passes/frame.hpp"
+#include "wound/skin_presets.hpp"
 #include "wound/wound.hpp"
 
 namespace app {
@@ -23,7 +24,7 @@ class Stage
         passes::FaceFrame face;
         std::vector<wound::PreparedWound> wounds; // matched to the skin they lie on
         std::vector<passes::Anchor> anchors;
-        wound::SkinLayers tissue;
+        wound::HealingTissue tissue;
         std::vector<std::string> notes;
     };
     static Props prepare(const Scene& scene);

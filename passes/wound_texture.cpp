@@ -40,6 +40,7 @@ WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, 
     params.bed_recovery = float(today.bed_recovery);
     params.border_recovery = float(today.border_recovery);
 
+    params.bed_presence = float(today.bed_presence);
     params.phase = {float(today.phase.clot), float(today.phase.fibrin), float(today.phase.granulation), float(today.phase.rim), float(maps.bed_luminance)};
 
     engine::ComputePass& warp = graph.compute("wound_texture" + suffix, "wound_texture.comp");
@@ -58,7 +59,7 @@ WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, 
     engine::ComputePass& relief = graph.compute("wound_relief" + suffix, "wound_relief.comp");
     relief.sample("state", texture.state);
     relief.store("relief", texture.relief);
-    relief.uniform("Relief_", shared::Relief{float(today.depth_scale), float(texel_mm), float(4.0 / texel_mm)}); // occlusion looks 4 mm far
+    relief.uniform("Relief_", shared::Relief{float(today.depth_scale), today.in_phases ? float(today.scar.height_mm) : 0.0f, float(texel_mm), float(4.0 / texel_mm)}); // occlusion looks 4 mm far
     relief.dispatch(size, size);
     return texture;
 }

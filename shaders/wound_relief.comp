@@ -9,7 +9,11 @@ layout(binding = 0) uniform sampler2D state;
 layout(binding = 1, rgba16f) uniform writeonly image2D relief;
 layout(scalar, binding = 2) uniform Relief_ { Relief params; };
 
-float depth(ivec2 p) { return params.depth_scale * texelFetch(state, clamp(p, ivec2(0), textureSize(state, 0) - 1), 0).r; }
+float depth(ivec2 p)
+{
+    const vec4 s = texelFetch(state, clamp(p, ivec2(0), textureSize(state, 0) - 1), 0);
+    return params.depth_scale * s.r - params.scar_mm * max(s.a - s.b, 0);
+}
 
 void main()
 {

@@ -47,6 +47,7 @@ void main()
         day0.rgb = mix(day0.rgb, tinted(day0.rgb, today.phase), bed_shape.g);
         day0.a *= mix(today.phase.rim, 1, border_shape.g);
     }
+    bed_shape.g *= today.bed_presence;
     imageStore(color, texel, day0);
     imageStore(state, texel, vec4(bed_shape.r, mix(today.border_recovery, today.bed_recovery, bed_shape.g), bed_shape.g, border_shape.g));
 }

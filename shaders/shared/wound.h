@@ -22,6 +22,7 @@ struct WoundToday
     WarpHeader bed;         // the same for the open bed
     float bed_recovery;     // r of eq. (4) in the open bed
     float border_recovery;  // r of eq. (4) elsewhere: on new epithelium and in the rim
+    float bed_presence;     // 1 until closure, then 0: the last of the bed fades
     BedPhase phase;
 };
 
@@ -29,6 +30,7 @@ struct WoundToday
 struct Relief
 {
     float depth_scale;  // today's depth / day 0's
+    float scar_mm;      // height of new skin between the bed and the border
     float texel_mm;     // width of a texel on the skin
     float reach_texels; // how far occlusion looks
 };
