@@ -9,7 +9,8 @@
 #include <future>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
-#include <set>
+#include <optional>
+#include <sstream>
 #include <unistd.h>
 
 #include "apps/contact_sheet.hpp"
@@ -91,6 +92,22 @@ json pass_costs(const engine::FrameResult& frame)
     return passes;
 }
 
+/// Wall-clock milliseconds since this process was started.
+double process_ms()
+{
+    // Field 22 of /proc/self/stat: start time in clock ticks since boot, behind a name that may hold blanks and parentheses.
+    std::ifstream stat("/proc/self/stat"), uptime("/proc/uptime");
+    std::string line;
+    std::getline(stat, line);
+    std::istringstream fields(line.substr(line.rfind(')') + 2));
+    std::string field;
+    for (int i = 3; i <= 22; ++i)
+        fields >> field;
+    double now = 0;
+    uptime >> now;
+    return 1e3 * (now - std::stod(field) / double(::sysconf(_SC_CLK_TCK)));
+}
+
 /// Coverage of the open bed in the warped mask, in texels.
 double bed_texels(const cv::Mat& state)
 {
@@ -130,6 +147,7 @@ class Capture
         json record = header(device);
         if (!options_.no_cost)
             record["cost"] = measure_cost(executor, stage, cost_lines);
+        record["first_picture_ms"] = *first_picture_ms_; // since the process started
         record["days"] = days_;
         writers_.push([&] { engine::write_png(options_.out / "healing.png", contact_sheet(title(device), cells_, 6)); });
         writers_.finish();
@@ -172,6 +190,8 @@ class Capture
 
         const std::string file = picture_name(day, ++repetitions_[day]);
         const cv::Mat3b rgb = to_rgb(frame.mat(picture));
+        if (!first_picture_ms_)
+            first_picture_ms_ = process_ms();
         writers_.push([path = options_.out / file, rgb] { engine::write_png(path, rgb); });
 
         json record{{"day", day}, {"file", file}, {"frame_ms", frame.frame_ms}, {"passes", pass_costs(frame)}, {"wounds", json::array()}};
@@ -226,6 +246,7 @@ class Capture
     const CaptureOptions& options_;
     const Scene& scene_;
     const bool terminal_;
+    std::optional<double> first_picture_ms_;
     std::map<double, int> repetitions_;
     json days_ = json::array();
     std::vector<SheetCell> cells_;

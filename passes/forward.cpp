@@ -28,7 +28,7 @@ WoundUniform wound_frames(std::span<const PlacedWound> wounds)
         const cv::Vec3f blood = wound::blood_absorbance;
         uniform.frames[i] = {to_vec3(anchor.centre), float(anchor.half_width_m), to_vec3(anchor.right), float(Anchor::reach),
                              to_vec3(anchor.down),   float(wounds[i].day),       to_vec3(anchor.normal), wounds[i].axes,
-                             glm::exp(-float(wounds[i].pink) * shared::vec3(blood[0], blood[1], blood[2]))};
+                             glm::exp(-1.4f * float(wounds[i].pink) * shared::vec3(blood[0], blood[1], blood[2])), wounds[i].epithelium ? 1.0f : 0.0f};
     }
     return uniform;
 }

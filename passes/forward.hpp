@@ -43,6 +43,7 @@ struct PlacedWound
     shared::LutAxes axes; // of the lut
     double day = 0;
     double pink = 0;      // blood over the skin of newly closed wound, units of wound::blood_absorbance
+    bool epithelium = false; // new epithelium grows between bed and border
 };
 
 struct ForwardInput

@@ -35,7 +35,7 @@ void main()
     const vec2 from_border = warp_backward(RUNG, today.border, p);
     const float border_mip = mip_of(p, from_border, today.border.center);
     vec4 day0 = textureLod(day0_color, from_border * 0.5 + 0.5, border_mip);
-    const vec2 border_shape = textureLod(day0_shape, from_border * 0.5 + 0.5, border_mip).rg;
+    vec2 border_shape = textureLod(day0_shape, from_border * 0.5 + 0.5, border_mip).rg;
     vec2 bed_shape = border_shape;
     if (BED_APART)
     {
@@ -47,6 +47,10 @@ void main()
         day0.rgb = mix(day0.rgb, tinted(day0.rgb, today.phase), bed_shape.g);
         day0.a *= mix(today.phase.rim, 1, border_shape.g);
     }
+    // New skin ends softly: its coverage comes from a mip level that blurs about a millimetre, once there is any new skin.
+    if (PHASES)
+        border_shape.g = mix(border_shape.g, textureLod(day0_shape, from_border * 0.5 + 0.5, border_mip + 3.5).g,
+                             clamp(20 * today.border_recovery, 0, 1));
     bed_shape.g *= today.bed_presence;
     imageStore(color, texel, day0);
     imageStore(state, texel, vec4(bed_shape.r, mix(today.border_recovery, today.bed_recovery, bed_shape.g), bed_shape.g, border_shape.g));

@@ -176,10 +176,10 @@ WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day
     result.bed_recovery = result.border_recovery = state.recovery_ratio; // the paper's: one r for all of the wound
     if (healing.model == HealingModel::face)
     {
-        // The open bed stays a wound until new epithelium covers it; that is pink, and half way to
-        // skin when the wound closes.
-        result.bed_recovery = 0.3 * state.recovery_ratio;
-        result.border_recovery = 0.5 * state.recovery_ratio;
+        // The open bed stays a wound until new epithelium covers it; that is pink, and a quarter of the
+        // way to skin when the wound closes.
+        result.bed_recovery = 0.12 * state.recovery_ratio;
+        result.border_recovery = 0.25 * state.recovery_ratio;
         if (const ScarState scar = scar_at(healing, day); scar.months > 0) // the rest of the way goes with the scar's redness
             result.border_recovery = 1 - (1 - result.border_recovery) * scar.redness / scar_after(0).redness;
         result.in_phases = true;

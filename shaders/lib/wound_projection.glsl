@@ -41,7 +41,9 @@ void add_wound(uint blend_model, WoundFrame w, sampler2D color_map, sampler2D st
     const vec3 reflectance = textureLod(lut, lut_uv(w.lut, state.r, w.day, vec2(textureSize(lut, 0))), 0).rgb;
     // Between the bed and the outer border lies new epithelium: thin, so that the blood beneath shows. Its W is that, not the photo's bed.
     const float ring_share = clamp(state.a - state.b, 0, 1);
-    const vec3 wound = mix(color.rgb, skin.albedo * w.new_skin, ring_share);
+    // The inflamed rim turns into it as well, as soon as there is any.
+    const float renewed = w.epithelium * (1 - state.b) * clamp(8 * state.g, 0, 1);
+    const vec3 wound = mix(color.rgb, skin.albedo * w.new_skin, renewed);
     skin.albedo = mix(skin.albedo, recovering_color(blend_model, wound, reflectance, skin.albedo, state.g), opacity);
 
     const float fresh = 1 - clamp(state.g, 0, 1); // how much of the injury is still to be seen

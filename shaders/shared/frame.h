@@ -31,6 +31,7 @@ struct WoundFrame
     vec3 normal;      // unit
     LutAxes lut;      // of the wound's reflectance table
     vec3 new_skin;    // the colour of new epithelium over that of skin
+    float epithelium; // 1 when new epithelium covers what lies between bed and border, 0 when the border itself closes
 };
 
 #ifdef __cplusplus
