@@ -111,7 +111,7 @@ FaceFrame find_face(const engine::Model& head)
 
 std::vector<NamedPlace> named_places()
 {
-    return {{"cheek", {0.32, -0.06}}, {"eyebrow", {0.22, 0.50}}, {"chin", {0.09, -0.50}}, {"forehead", {0.05, 0.60}}, {"nose", {0.03, 0.10}}};
+    return {{"cheek", {0.32, -0.06}}, {"eyebrow", {0.21, 0.44}}, {"chin", {0.08, -0.36}}, {"forehead", {0.05, 0.60}}, {"nose", {0.03, 0.10}}};
 }
 
 Anchor anchor_wound(const engine::Model& head, const FaceFrame& face, const Place& place, double patch_width_mm,

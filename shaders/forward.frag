@@ -69,9 +69,9 @@ void main()
 
     frame = frame_of(bend_to_viewer(skin.normal, to_viewer), v_tangent);
     ShadingParams params = shading;
-    // A wet bed mirrors more, in a narrower lobe; taut new epithelium a little so.
-    params.slope *= part.slope * (1 - 0.3 * skin.wetness) * (1 - 0.25 * skin.tautness);
-    params.rho_s *= part.specular * (1 + 0.15 * skin.wetness + 0.15 * skin.tautness);
+    // A wet bed mirrors in a narrower lobe: small glints rather than a sheen. Taut new epithelium a little so.
+    params.slope *= part.slope * (1 - 0.4 * skin.wetness) * (1 - 0.25 * skin.tautness);
+    params.rho_s *= part.specular * (1 - 0.4 * skin.wetness + 0.15 * skin.tautness);
     const vec3 local_viewer = to_viewer * frame;
     vec3 diffuse = AMBIENT ? params.ambient * skin.occlusion : vec3(0); // still to be coloured by C
     vec3 mirrored = vec3(0);

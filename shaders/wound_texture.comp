@@ -42,15 +42,15 @@ void main()
         const vec2 from_bed = warp_backward(RUNG, today.bed, p);
         bed_shape = textureLod(day0_shape, from_bed * 0.5 + 0.5, mip_of(p, from_bed, today.bed.center)).rg;
     }
+    // New skin ends softly: its coverage comes from a mip level that blurs about a millimetre, once there is any new skin.
+    if (PHASES)
+        border_shape.g = mix(border_shape.g, textureLod(day0_shape, from_border * 0.5 + 0.5, border_mip + 3.5).g,
+                             clamp(20 * today.border_recovery, 0, 1));
     if (PHASES)
     {
         day0.rgb = mix(day0.rgb, tinted(day0.rgb, today.phase), bed_shape.g);
         day0.a *= mix(today.phase.rim, 1, border_shape.g);
     }
-    // New skin ends softly: its coverage comes from a mip level that blurs about a millimetre, once there is any new skin.
-    if (PHASES)
-        border_shape.g = mix(border_shape.g, textureLod(day0_shape, from_border * 0.5 + 0.5, border_mip + 3.5).g,
-                             clamp(20 * today.border_recovery, 0, 1));
     bed_shape.g *= today.bed_presence;
     imageStore(color, texel, day0);
     imageStore(state, texel, vec4(bed_shape.r, mix(today.border_recovery, today.bed_recovery, bed_shape.g), bed_shape.g, border_shape.g));

@@ -48,8 +48,8 @@ void add_wound(uint blend_model, WoundFrame w, sampler2D color_map, sampler2D st
 
     const float fresh = 1 - clamp(state.g, 0, 1); // how much of the injury is still to be seen
     const float bed = state.b * opacity, ring = ring_share * opacity;
-    // The bed has no pores; new epithelium has few. The hollow bends the normal: height is -depth.
-    const vec3 smoothed = mix(skin.normal, geometric, fresh * clamp(0.85 * bed + 0.6 * ring, 0, 1));
+    // New epithelium has few pores; the bed is uneven in a way of its own, which the pores stand for. The hollow bends the normal: height is -depth.
+    const vec3 smoothed = mix(skin.normal, geometric, fresh * clamp(0.4 * bed + 0.6 * ring, 0, 1));
     skin.normal = normalize(smoothed + facing * (relief.x * w.right + relief.y * w.down));
     skin.occlusion *= mix(1.0, relief.z, facing);
     skin.wetness = max(skin.wetness, bed * sqrt(fresh));
