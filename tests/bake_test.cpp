@@ -1,0 +1,182 @@
+// The reflectance table on the CPU, its cache, and the commands `reflect` and `bake`.
+#include <fstream>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <unistd.h>
+
+#include "apps/bake.hpp"
+#include "apps/reflect.hpp"
+#include "passes/reflectance_table.hpp"
+#include "tests/gpu.hpp"
+#include "wound/input_error.hpp"
+
+namespace {
+
+using namespace wound;
+
+class Folder : public testing::Test
+{
+  protected:
+    Folder()
+    {
+        path = std::filesystem::temp_directory_path() /
+               (testing::UnitTest::GetInstance()->current_test_info()->name() + std::to_string(getpid()));
+        std::filesystem::create_directories(path);
+    }
+    ~Folder() override { std::filesystem::remove_all(path); }
+
+    std::vector<std::filesystem::path> files() const
+    {
+        std::vector<std::filesystem::path> result;
+        for (const auto& entry : std::filesystem::directory_iterator(path))
+            result.push_back(entry.path());
+        return result;
+    }
+    std::filesystem::path path;
+};
+
+using TableCache = Folder;
+using Commands = Folder;
+
+bool same(const cv::Mat3f& a, const cv::Mat3f& b)
+{
+    return a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0;
+}
+
+} // namespace
+
+TEST(ReflectanceTable, SamplingInterpolatesWithinThePromisedError)
+{
+    const HealingTissue light = skin(SkinTone::Light);
+    const passes::LutRows rows = passes::lut_rows(light, Healing{}, 64, 60);
+    const cv::Mat3f table = passes::bake_reflectance_table(rows.open, 64, Rung::Calibrated);
+    double sum = 0;
+    int count = 0;
+    for (double depth : {0., .03, .1, .15, .4, .9, 1.7, 3.})
+        for (double day : {0., .7, 2.5, 6., 13., 21., 29., 47.}) {
+            const Color direct =
+                tissue_color(layers_at(app::open_bed_on(light, day), depth), Rung::Calibrated);
+            const double error = cv::norm(passes::sample_table(table, rows.axes, depth, day) - direct);
+            sum += error * error;
+            ++count;
+        }
+    EXPECT_LT(std::sqrt(sum / count / 3), .004);
+    // Exact on the nodes.
+    const Color corner = tissue_color(layers_at(rows.open[63], rows.axes.deepest_mm), Rung::Calibrated);
+    EXPECT_LT(cv::norm(passes::sample_table(table, rows.axes, 1e9, 1e9) - corner), 1e-6);
+}
+
+TEST_F(TableCache, IsReadBackAndKeyedByAllThatMatters)
+{
+    std::vector<TissueDay> rows(4, restored_skin(table1(), 1));
+    const cv::Mat3f table =
+        passes::cached_reflectance_table(path, rows, 4, Rung::AddingDoubling, {.angles = 2});
+    ASSERT_EQ(files().size(), 1u);
+    const auto written = std::filesystem::last_write_time(files()[0]);
+    EXPECT_TRUE(
+        same(passes::cached_reflectance_table(path, rows, 4, Rung::AddingDoubling, {.angles = 2}), table));
+    EXPECT_EQ(std::filesystem::last_write_time(files()[0]), written);
+    passes::cached_reflectance_table(path, rows, 4, Rung::AddingDoubling, {.angles = 3});
+    EXPECT_EQ(files().size(), 2u);
+    rows[2].intact.layers[1].sigma_a[2] *= 1.0000001;
+    passes::cached_reflectance_table(path, rows, 4, Rung::AddingDoubling, {.angles = 2});
+    EXPECT_EQ(files().size(), 3u);
+}
+
+TEST_F(TableCache, ADamagedFileIsBakedAgain)
+{
+    const std::vector<TissueDay> rows(3, restored_skin(table1(), 1));
+    const cv::Mat3f table = passes::cached_reflectance_table(path, rows, 4, Rung::TwoStream);
+    for (const std::string& damage : {std::string(), std::string(4 * 3 * 12, '\xff'), std::string(1000, 'x')})
+    {
+        std::ofstream(files().at(0), std::ios::binary) << damage;
+        EXPECT_TRUE(same(passes::cached_reflectance_table(path, rows, 4, Rung::TwoStream), table));
+    }
+    // A folder that cannot be made costs time only.
+    std::ofstream(path / "file") << "";
+    EXPECT_TRUE(
+        same(passes::cached_reflectance_table(path / "file" / "below", rows, 4, Rung::TwoStream), table));
+}
+
+using UploadedTable = gpu::Test;
+
+TEST_F(UploadedTable, IsWhatTheShaderWouldHaveBaked)
+{
+    const std::vector<TissueDay> rows = passes::lut_rows(skin(SkinTone::Medium), Healing{}, 8, 60).covered;
+    const cv::Mat3f table = passes::bake_reflectance_table(rows, 8, Rung::TwoStream);
+    engine::Executor executor(gpu::device(), gpu::shaders());
+    engine::Graph graph;
+    const auto lut =
+        passes::add_reflectance_lut(graph, "lut", passes::lut_tissue(rows, 60), Rung::TwoStream, 8);
+    const engine::ReadbackId back = graph.readback("lut", lut.reflectance);
+    cv::Mat4f baked;
+    const engine::FrameResult frame = executor.run(graph);
+    frame.mat(back).convertTo(baked, CV_32F);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x)
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(baked(y, x)[c], table(y, x)[c], 3e-5 + table(y, x)[c] * 0x1p-10);
+    const engine::Texture texture = passes::upload_reflectance_table(gpu::device(), table, "table");
+    EXPECT_EQ(texture.external().desc.format, VK_FORMAT_R16G16B16A16_SFLOAT);
+    EXPECT_EQ(texture.external().desc.width, 8u);
+}
+
+TEST_F(Commands, ReflectPrintsOneObjectWithAllFields)
+{
+    std::ofstream(path / "one.json")
+        << R"({"unit":"1/cm","layers":[{"name":"slab","sigma_a":10,"sigma_s":90,"g":0.75,"n":1,
+                                            "thickness_mm":0.2}]})";
+    app::ReflectOptions options{.tissue = (path / "one.json").string(), .rung = Rung::AddingDoubling};
+    options.rung_options.incidence = Incidence::Normal;
+    std::ostringstream out;
+    app::reflect(options, out);
+    const auto json = nlohmann::json::parse(out.str());
+    EXPECT_NEAR(json.at("r").get<double>(), .09739, 2e-4); // van de Hulst; one wavelength: numbers, not lists
+    EXPECT_NEAR(json.at("t").get<double>(), .66096, 2e-4);
+    EXPECT_EQ(json.at("r_without_specular"), json.at("r"));
+    EXPECT_NEAR(json.at("absorbed").at(0).get<double>(), 1 - .09739 - .66096, 4e-4);
+    EXPECT_EQ(json.at("standard_error"), 0);
+    options = {.tissue = "table1", .rung = Rung::Published};
+    out.str("");
+    app::reflect(options, out);
+    const auto published = nlohmann::json::parse(out.str());
+    EXPECT_EQ(published.at("r").size(), 3u);
+    EXPECT_EQ(published.at("absorbed").size(), 3u);
+    EXPECT_EQ(published.at("outside_domain").size(), 5u);
+    options.tissue = "light";
+    out.str("");
+    app::reflect(options, out);
+    EXPECT_EQ(nlohmann::json::parse(out.str()).at("linear_rgb").size(), 3u);
+}
+
+TEST_F(Commands, BakeWritesTablesAndPictures)
+{
+    app::BakeOptions options{
+        .tissue = "table1", .rung = Rung::TwoStream, .width = 8, .height = 8, .out = path};
+    std::ostringstream out;
+    app::bake(options, out);
+    for (const char* name : {"open_bed.exr", "covered.exr", "tables.png", "color_over_days.png"})
+        EXPECT_GT(std::filesystem::file_size(path / name), 100u) << name;
+    EXPECT_THAT(out.str(), testing::HasSubstr("8 x 8, two-stream"));
+}
+
+TEST_F(Commands, MistakesAreNamed)
+{
+    EXPECT_THROW(app::healing_tissue_or_file("/nowhere.json"), cicatrix::InputError);
+    std::ofstream(path / "two.json")
+        << R"({"unit":"1/mm","layers":[{"sigma_a":[1,2],"sigma_s":1,"n":1.4,"thickness_mm":1}]})";
+    EXPECT_THROW(app::healing_tissue_or_file((path / "two.json").string()), cicatrix::InputError);
+    EXPECT_THROW(rung_named("magic"), cicatrix::InputError);
+    std::ofstream(path / "file") << "";
+    EXPECT_THROW(app::make_folder(path / "file" / "below"), cicatrix::InputError);
+}
+
+TEST(Compare, LadderOrdersTheRungsAsTheDocumentsSay)
+{
+    const nlohmann::ordered_json calibration = app::measure_calibration();
+    const double eddington = calibration.at("two-stream").at("held_out_rms"),
+                 fitted = calibration.at("calibrated").at("held_out_rms");
+    EXPECT_LT(eddington, .03);
+    EXPECT_LT(fitted, .012);
+}
