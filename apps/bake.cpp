@@ -141,7 +141,7 @@ void add_bake_command(CLI::App& app)
         ->capture_default_str();
     command->add_option("--out", options->out, "Folder to write")->capture_default_str();
     command->add_option("--photons", options->rung_options.photons, "Photons per colour of the reference")
-        ->check(CLI::Range(100.0, 1e11))
+        ->check(CLI::Range(100.0, 1e10))
         ->capture_default_str();
     command->add_flag("--compare", *comparing, "Measure every model against the photon walk");
     command->callback(

@@ -101,7 +101,7 @@ void add_light_options(CLI::App& command, ReflectOptions& options)
         ->check(CLI::IsMember({"exact", "polynomial"}));
     RungOptions& rung = options.rung_options;
     command.add_option("--photons", rung.photons, "Photons of monte-carlo")
-        ->check(CLI::Range(1.0, 1e11))
+        ->check(CLI::Range(1.0, 1e10))
         ->capture_default_str();
     command.add_option("--seed", rung.seed, "Seed of monte-carlo")->capture_default_str();
     command.add_option("--threads", rung.threads, "Threads of monte-carlo; 0: one per core")
