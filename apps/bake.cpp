@@ -11,6 +11,7 @@
 #include "wound/healing.hpp"
 #include "wound/input_error.hpp"
 #include "wound/shading.hpp"
+#include "wound/tissue_file.hpp"
 
 namespace app {
 
@@ -31,20 +32,6 @@ HealingTissue healing_tissue_or_file(const std::string& name)
 TissueDay open_bed_on(const HealingTissue& tissue, double day)
 {
     return open_bed(tissue, day, healing_at(Healing{}, day).depth_scale);
-}
-
-TableRows table_rows(const HealingTissue& tissue, std::uint32_t height, double last_day)
-{
-    const Healing healing;
-    TableRows tables;
-    for (std::uint32_t row = 0; row < height; ++row) {
-        const double day = passes::lut_row_day(row, height, last_day),
-                     depth = healing_at(healing, day).depth_scale;
-        tables.open.push_back(open_bed_on(tissue, day));
-        tables.covered.push_back(covered_bed(tissue, day, depth, closure_day(healing.curve)));
-    }
-    tables.axes = passes::lut_tissue(tables.open, last_day).parameters.axes;
-    return tables;
 }
 
 namespace {
@@ -102,7 +89,7 @@ std::filesystem::path cache_folder()
 void bake(const BakeOptions& options, std::ostream& out)
 {
     const HealingTissue tissue = healing_tissue_or_file(options.tissue);
-    const TableRows rows = table_rows(tissue, options.height, options.last_day);
+    const passes::LutRows rows = passes::lut_rows(tissue, Healing{}, options.height, options.last_day);
     make_folder(options.out);
     const auto table = [&](const std::vector<TissueDay>& days) {
         return passes::cached_reflectance_table(cache_folder(), days, options.width, options.rung,
@@ -154,7 +141,7 @@ void add_bake_command(CLI::App& app)
         ->capture_default_str();
     command->add_option("--out", options->out, "Folder to write")->capture_default_str();
     command->add_option("--photons", options->rung_options.photons, "Photons per colour of the reference")
-        ->check(CLI::Range(100.0, 1e11))
+        ->check(CLI::Range(100.0, 1e10))
         ->capture_default_str();
     command->add_flag("--compare", *comparing, "Measure every model against the photon walk");
     command->callback(

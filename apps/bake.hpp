@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "shaders/shared/reflectance_lut.h"
 #include "wound/reflectance.hpp"
 #include "wound/skin_presets.hpp"
 
@@ -36,14 +35,8 @@ void bake(const BakeOptions& options, std::ostream& out);
 std::filesystem::path cache_folder();
 void make_folder(const std::filesystem::path& folder); // InputError when it cannot be made
 
-/// The tissue of every row's day for the default healing curve.
-struct TableRows
-{
-    std::vector<wound::TissueDay> open, covered;
-    shared::LutAxes axes;
-};
+/// The open bed of the default healing curve.
 wound::TissueDay open_bed_on(const wound::HealingTissue& tissue, double day);
-TableRows table_rows(const wound::HealingTissue& tissue, std::uint32_t height, double last_day);
 
 /// One rung on one stack.
 struct Measured

@@ -116,7 +116,7 @@ ordered_json measure_table_sizes(const BakeOptions& options)
         Color direct;
     };
     // Evenly over the table, each against the rung itself on that very day.
-    const shared::LutAxes axes = table_rows(tissue, 2, options.last_day).axes;
+    const shared::LutAxes axes = passes::lut_rows(tissue, Healing{}, 2, options.last_day).axes;
     std::vector<Sample> samples;
     for (int i = 0; i < 1000; ++i) {
         const double u = uniform(), v = uniform(), depth = u * u * axes.deepest_mm,
@@ -127,7 +127,7 @@ ordered_json measure_table_sizes(const BakeOptions& options)
     ordered_json sizes = ordered_json::array();
     for (std::uint32_t size = 8; size <= 256; size *= 2) {
         const cv::Mat3f table = passes::bake_reflectance_table(
-            table_rows(tissue, size, options.last_day).open, size, Rung::Calibrated);
+            passes::lut_rows(tissue, Healing{}, size, options.last_day).open, size, Rung::Calibrated);
         double sum = 0, worst = 0;
         for (const Sample& s : samples) {
             const double error = rms(passes::sample_table(table, axes, s.depth, s.day) - s.direct);
@@ -144,7 +144,7 @@ ordered_json measure_table_sizes(const BakeOptions& options)
 ordered_json measure_table_against_walk(const BakeOptions& options)
 {
     const HealingTissue tissue = healing_tissue_or_file(options.tissue);
-    const TableRows rows = table_rows(tissue, options.height, options.last_day);
+    const passes::LutRows rows = passes::lut_rows(tissue, Healing{}, options.height, options.last_day);
     const cv::Mat3f table = passes::cached_reflectance_table(cache_folder(), rows.open, options.width,
                                                              options.rung, options.rung_options);
     std::mt19937 random(12);

@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include "wound/input_error.hpp"
+#include "wound/skin_presets.hpp"
+#include "wound/tissue_file.hpp"
 
 namespace app {
 
@@ -41,7 +43,8 @@ ordered_json domain_report(const SkinLayers& tissue)
 
 void reflect(const ReflectOptions& options, std::ostream& out)
 {
-    const SkinLayers tissue = read_tissue(options.tissue);
+    const auto preset = tissue_preset(options.tissue);
+    const SkinLayers tissue = preset ? *preset : read_tissue(options.tissue);
     std::vector<Response> responses;
     for (std::size_t c = 0; c < tissue.channels(); ++c) {
         RungOptions channel = options.rung_options;
@@ -63,6 +66,13 @@ void reflect(const ReflectOptions& options, std::ostream& out)
     for (std::size_t l = 0; l < tissue.layers.size(); ++l)
         json["absorbed"].push_back(per_channel(responses, [&](const Response& x) { return x.absorbed[l]; }));
     json["standard_error"] = per_channel(responses, [](const Response& x) { return x.standard_error; });
+    std::vector<double> channels;
+    for (const Response& response : responses)
+        channels.push_back(response.r_without_specular);
+    if (channels.size() == wavelength_count) {
+        const Color color = linear_rgb(channels);
+        json["linear_rgb"] = {color[0], color[1], color[2]};
+    }
     if (options.rung == Rung::Published)
         json["outside_domain"] = domain_report(tissue);
     out << json.dump(2) << '\n';
@@ -91,7 +101,7 @@ void add_light_options(CLI::App& command, ReflectOptions& options)
         ->check(CLI::IsMember({"exact", "polynomial"}));
     RungOptions& rung = options.rung_options;
     command.add_option("--photons", rung.photons, "Photons of monte-carlo")
-        ->check(CLI::Range(1.0, 1e11))
+        ->check(CLI::Range(1.0, 1e10))
         ->capture_default_str();
     command.add_option("--seed", rung.seed, "Seed of monte-carlo")->capture_default_str();
     command.add_option("--threads", rung.threads, "Threads of monte-carlo; 0: one per core")
@@ -109,7 +119,9 @@ void add_reflect_command(CLI::App& app)
         app.add_subcommand("reflect", "What layered tissue reflects, transmits and absorbs, as JSON");
     auto options = std::make_shared<ReflectOptions>();
     auto check = std::make_shared<bool>(false);
-    command->add_option("tissue", options->tissue, "Tissue file (JSON)");
+    command->add_option(
+        "tissue", options->tissue,
+        "Tissue file (JSON), or a preset: table1, light, medium, dark, granulation, scar, ...");
     command->add_option_function<std::string>(
         "--model", [options](const std::string& text) { options->rung = rung_named(text); },
         "published, clamped, exponential, two-stream-paper, two-stream (default), adding-doubling, "

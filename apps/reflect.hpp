@@ -2,8 +2,8 @@
 // ladder.
 #pragma once
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <iosfwd>
+#include <string>
 
 #include "wound/reflectance.hpp"
 
@@ -11,7 +11,7 @@ namespace app {
 
 struct ReflectOptions
 {
-    std::filesystem::path tissue;
+    std::string tissue; // a preset's name or a file
     wound::Rung rung = wound::Rung::TwoStream;
     wound::RungOptions rung_options;
 };

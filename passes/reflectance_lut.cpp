@@ -46,6 +46,22 @@ double lut_row_day(std::size_t row, std::size_t rows, double last_day)
     return shared::lut_value(static_cast<float>(row), static_cast<float>(rows), static_cast<float>(last_day));
 }
 
+LutRows lut_rows(const wound::HealingTissue& tissue, const wound::Healing& healing, std::size_t rows,
+                 double last_day)
+{
+    LutRows result;
+    const double closed = wound::closure_day(healing.curve);
+    for (std::size_t row = 0; row < rows; ++row) {
+        const double day = lut_row_day(row, rows, last_day),
+                     depth = wound::healing_at(healing, day).depth_scale;
+        result.open.push_back(wound::open_bed(tissue, day, depth));
+        result.covered.push_back(wound::covered_bed(tissue, day, depth, closed));
+    }
+    result.axes = {static_cast<float>(deepest_injury_mm(result.open.front().intact)),
+                   static_cast<float>(last_day)};
+    return result;
+}
+
 LutTissue lut_tissue(std::span<const wound::TissueDay> rows, double last_day)
 {
     assert(!rows.empty());
@@ -72,6 +88,7 @@ LutTissue lut_tissue(std::span<const wound::TissueDay> rows, double last_day)
 ReflectanceLut add_reflectance_lut(engine::Graph& graph, std::string_view name, const LutTissue& tissue,
                                    wound::Rung rung, std::uint32_t width)
 {
+    assert(rung <= wound::Rung::Calibrated); // beyond it: reflectance_table.hpp
     const auto height = static_cast<std::uint32_t>(tissue.days.size());
     // Half floats: every device filters them linearly; their error, 2.4e-4 of the value, is below the table's
     // own.

@@ -7,8 +7,9 @@
 
 #include "engine/graph.hpp"
 #include "shaders/shared/reflectance_lut.h"
-#include "wound/healing_tissue.hpp"
+#include "wound/healing.hpp"
 #include "wound/reflectance.hpp"
+#include "wound/skin_presets.hpp"
 
 namespace passes {
 
@@ -26,6 +27,16 @@ struct LutTissue
 /// Day of a row, for those who fill `rows`.
 double lut_row_day(std::size_t row, std::size_t rows, double last_day);
 
+/// The tissue of a healing wound on every row's day, for the open bed and for what new epithelium has
+/// covered.
+struct LutRows
+{
+    std::vector<wound::TissueDay> open, covered;
+    shared::LutAxes axes;
+};
+LutRows lut_rows(const wound::HealingTissue& tissue, const wound::Healing& healing, std::size_t rows,
+                 double last_day);
+
 /// `rows`: the tissue on lut_row_day(0), (1), ..., with three channels and the same number of intact layers
 /// each.
 LutTissue lut_tissue(std::span<const wound::TissueDay> rows, double last_day);
@@ -35,6 +46,7 @@ struct ReflectanceLut
     engine::ImageId reflectance; // linear RGB, >= 0 and finite; u = injury depth, v = day
 };
 
+/// `rung`: one that the shader knows, up to Calibrated; others are computed on the CPU (reflectance_table.hpp).
 /// Adds one compute pass `name`, which the graph skips while the tissue stands. Width: texels over depth.
 ReflectanceLut add_reflectance_lut(engine::Graph& graph, std::string_view name, const LutTissue& tissue,
                                    wound::Rung rung, std::uint32_t width = 64);

@@ -144,6 +144,22 @@ TEST(AddingDoubling, DoesNotSeeALayerSplitInTwo)
                 1e-9);
 }
 
+TEST(TwoStream, IsWithinTwoHundredthsOfTheTruthOnTable1)
+{
+    double eddington = 0, calibrated = 0;
+    const SkinLayers stacks[] = {table1(.2, 1, 4), table1(.2, 4, 9), table1(.1, 2.5, 6)};
+    for (const SkinLayers& tissue : stacks)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double truth = reflectance(tissue.channel(c), Rung::AddingDoubling).r_without_specular;
+            eddington +=
+                std::pow(reflectance(tissue.channel(c), Rung::TwoStream).r_without_specular - truth, 2) / 9;
+            calibrated +=
+                std::pow(reflectance(tissue.channel(c), Rung::Calibrated).r_without_specular - truth, 2) / 9;
+        }
+    EXPECT_LT(std::sqrt(eddington), .02);
+    EXPECT_LT(std::sqrt(calibrated), .01);
+}
+
 TEST(MonteCarlo, HasThePublishedValues)
 {
     const auto check = [](const Stack& stack, Incidence incidence, double r, double t) {

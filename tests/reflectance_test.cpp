@@ -11,6 +11,7 @@
 #include "wound/fresnel.hpp"
 #include "wound/healing_tissue.hpp"
 #include "wound/input_error.hpp"
+#include "wound/tissue_file.hpp"
 
 using namespace wound;
 using testing::DoubleNear;
@@ -59,7 +60,8 @@ class Draw
 };
 
 constexpr Rung two_streams[] = {Rung::TwoStream, Rung::TwoStreamPaper, Rung::Calibrated};
-constexpr Rung bounded[] = {Rung::TwoStream, Rung::TwoStreamPaper, Rung::Calibrated, Rung::Clamped, Rung::Exponential};
+constexpr Rung bounded[] = {Rung::TwoStream, Rung::TwoStreamPaper, Rung::Calibrated, Rung::Clamped,
+                            Rung::Exponential};
 
 void expect_same(const Response& a, const Response& b, double tolerance)
 {
@@ -361,5 +363,25 @@ TEST(TissueFile, MistakesAreNamedWithFileAndField)
     EXPECT_THAT(
         message_of(tissue_with(good_layer + R"(,{"sigma_a":[1,2],"sigma_s":1,"n":1,"thickness_mm":1})")),
         HasSubstr("/layers/1: 2 channels where another layer has 3"));
+    EXPECT_THAT(layer_with(R"("sigma_s":10)", R"("chromophores":{})"),
+                HasSubstr("/layers/0/sigma_a: stands beside chromophores"));
     EXPECT_THROW(read_tissue("/nonexistent/tissue.json"), cicatrix::InputError);
+}
+
+TEST(TissueFile, ChromophoresMakeASpectrum)
+{
+    const auto parse = [](const std::string& content) {
+        return parse_tissue(
+            nlohmann::json::parse(R"({"unit":"1/mm","layers":[{"n":1.4,"thickness_mm":1,"chromophores":)" +
+                                  content + R"(},{"n":1.4,"thickness_mm":1,"sigma_a":0.2,"sigma_s":3}]})"),
+            "t.json");
+    };
+    const SkinLayers tissue =
+        parse(R"({"blood":1,"oxygenation":1,"baseline":0,"scattering_500nm_per_mm":2})");
+    ASSERT_EQ(tissue.channels(), 31u);
+    EXPECT_NEAR(tissue.layers[0].sigma_a[14], 28.51, .01);
+    EXPECT_NEAR(tissue.layers[0].sigma_s_reduced[10], 2, 1e-12);
+    EXPECT_EQ(tissue.layers[1].sigma_a[30], .2);
+    EXPECT_THROW(parse(R"({"blood":1.5})"), cicatrix::InputError);
+    EXPECT_THROW(parse(R"({"wine":1})"), cicatrix::InputError);
 }

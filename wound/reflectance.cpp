@@ -217,8 +217,11 @@ Response reflectance(const Stack& stack, Rung rung, const RungOptions& options)
 std::vector<double> diffuse_color(const SkinLayers& tissue, Rung rung, const RungOptions& options)
 {
     std::vector<double> color;
-    for (std::size_t c = 0; c < tissue.channels(); ++c)
-        color.push_back(reflectance(tissue.channel(c), rung, options).r_without_specular);
+    RungOptions channel = options;
+    for (std::size_t c = 0; c < tissue.channels(); ++c) {
+        channel.seed = options.seed + c; // or the photons' noise would add up over a spectrum
+        color.push_back(reflectance(tissue.channel(c), rung, channel).r_without_specular);
+    }
     return color;
 }
 

@@ -51,8 +51,8 @@ double months_since_closure(double day, double closure_day)
 Layer new_epithelium(const ChromophoreSkin& skin, double day, double closure_day)
 {
     const double maturity = 1 - std::exp(-day / 14), months = months_since_closure(day, closure_day);
-    const double darkening =
-        .35 * std::exp(-.235 * months) * (1 - std::exp(-2 * months)); // +24 % at 1, +15 % at 3 months
+    const double darkening = .35 * std::exp(-.235 * months) *
+                             (1 - std::exp(-2 * months)); // measured: +24 % at 1, +15 % at 3 months
     Chromophores content = skin.epidermis;
     content.melanosomes *= (.3 + .7 * maturity) * (1 + darkening);
     return epidermis_layer(content, skin.epidermis_mm * (.35 + .65 * maturity));
@@ -87,7 +87,7 @@ ChromophoreSkin skin(SkinTone tone)
         double melanosomes, blood, oxygenation, baseline, scattering;
     };
     constexpr std::array<Fit, 3> fits{
-        {{.0083, .0173, .85, .50, .75}, {.0233, .0136, .84, .52, .82}, {.0595, .0633, .82, .58, 1.07}}};
+        {{.0083, .0173, .85, .50, .75}, {.0233, .0136, .84, .52, .82}, {.0696, .03, .85, .52, 1.04}}};
     const Fit& fit = fits[static_cast<std::size_t>(tone)];
     ChromophoreSkin result;
     result.epidermis = {.melanosomes = fit.melanosomes,

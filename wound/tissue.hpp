@@ -2,10 +2,7 @@
 // Coefficients are held per channel: three for RGB, one for a single wavelength, many for a spectrum.
 #pragma once
 #include <cstddef>
-#include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace wound {
@@ -49,12 +46,5 @@ struct SkinLayers
 /// Table 1 of Choi & Chin 2014 as printed, read as mm^-1. The paper gives the dermis 1..4 mm and the
 /// subcutis 4..9 mm. The medium below has the subcutis' index: nothing comes back from there.
 SkinLayers table1(double epidermis_mm = 0.2, double dermis_mm = 1, double subcutis_mm = 4);
-
-/// Reads {"unit": "1/mm" | "1/cm", "n_above": 1, "n_below": 1, "layers": [{"name", "sigma_a",
-/// "sigma_s_reduced" or "sigma_s", "g", "n", "thickness_mm"}]}. A coefficient is a number (all channels) or
-/// an array, one number per channel; thickness_mm may be "inf". `file` is what messages name. Throws
-/// cicatrix::InputError naming file and field.
-SkinLayers parse_tissue(const nlohmann::json& json, std::string_view file);
-SkinLayers read_tissue(const std::filesystem::path& path);
 
 } // namespace wound
