@@ -142,7 +142,11 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
     patch.mask = resample_mask(mask, resample);
     patch.opacity = first_opacity(patch.mask, picture);
     patch.width_mm = preparation.width_mm / kWoundShare;
-    return prepare_patch(std::move(patch), preparation, false);
+    PreparedWound wound = prepare_patch(std::move(patch), preparation, false);
+    wound.photo_mask = mask;
+    wound.photo_center = centroid;
+    wound.photo_side = side;
+    return wound;
 }
 
 PreparedWound prepare_patch(Patch patch, const Preparation& preparation, bool keep_depth)
