@@ -94,7 +94,7 @@ cv::Mat1f resample_mask(const cv::Mat1b& mask, const Resampling& resample)
 {
     cv::Mat1f coverage;
     mask.convertTo(coverage, CV_32F, 1 / 255.);
-    cv::GaussianBlur(coverage, coverage, {}, .8);
+    cv::GaussianBlur(coverage, coverage, {}, 1.2);
     cv::Mat1f soft = resample(coverage, cv::BORDER_CONSTANT);
     const double gain = std::max(1 / resample.pixels_per_texel, 1.);
     cv::Mat1f sharp = cv::min(cv::max((soft - .5F) * gain + .5F, 0), 1);
