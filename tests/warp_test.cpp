@@ -8,50 +8,13 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "wound/contour.hpp"
+#include "wound/warp_ladder.hpp"
 
 namespace {
 
 using wound::Polyline;
 using wound::Warp;
 using wound::WarpRung;
-
-/// A closed polyline as in a drawing: `radius(angle)` about the origin.
-template <typename Radius>
-Polyline polar(Radius radius)
-{
-    Polyline curve;
-    for (int i = 0; i < 720; ++i) {
-        const double angle = -i * std::numbers::pi / 360; // counter-clockwise on screen
-        curve.emplace_back(radius(angle) * std::cos(angle), radius(angle) * std::sin(angle));
-    }
-    return curve;
-}
-
-Polyline crescent()
-{
-    Polyline curve;
-    for (int i = 0; i <= 300; ++i) {
-        const double angle = 2.2 - 4.4 * i / 300;
-        curve.emplace_back(.45 * std::cos(angle), .45 * std::sin(angle));
-    }
-    for (int i = 300; i >= 0; --i) {
-        const double angle = 2.2 - 4.4 * i / 300;
-        curve.emplace_back(.05 + .30 * std::cos(angle), .30 * std::sin(angle));
-    }
-    return curve;
-}
-
-Polyline cut() // 20 : 1
-{
-    Polyline curve;
-    for (int i = 0; i < 400; ++i) {
-        const double angle = -i * std::numbers::pi / 200;
-        curve.emplace_back(.45 * std::copysign(std::sqrt(std::abs(std::cos(angle))), std::cos(angle)),
-                           .0225 * std::sin(angle));
-    }
-    return curve;
-}
 
 struct Shape
 {
@@ -61,34 +24,11 @@ struct Shape
     wound::ContractionFlow flow;
 };
 
-cv::Point2d centroid_of(const Polyline& curve)
-{
-    cv::Point2d sum;
-    for (std::size_t i = 0; i < curve.size(); ++i) {
-        const cv::Point2d a = curve[i], b = curve[(i + 1) % curve.size()];
-        sum += (a + b) * (b.x * a.y - a.x * b.y);
-    }
-    return sum / (6 * wound::signed_area(curve));
-}
-
 const std::vector<Shape>& shapes()
 {
     static const std::vector<Shape> all = [] {
-        std::vector<std::pair<std::string, Polyline>> drawn{
-            {"circle", polar([](double) { return .45; })},
-            {"star", polar([](double a) { return .32 + .12 * std::cos(5 * a); })},
-            {"ragged", polar([](double a) {
-                 return .36 + .05 * std::sin(3 * a + 1) + .03 * std::sin(7 * a) + .015 * std::sin(17 * a + 2);
-             })},
-            {"crescent", crescent()},
-            {"cut", cut()}};
-        Polyline edge = polar([](double) { return .28; });
-        for (cv::Point2d& p : edge)
-            p += cv::Point2d(.6, .1);
-        drawn.emplace_back("near the frame", edge);
         std::vector<Shape> result;
-        for (auto& [name, border] : drawn) {
-            const cv::Point2d centroid = centroid_of(border);
+        for (const auto& [name, border, centroid] : wound::ladder_shapes()) {
             const auto points =
                 wound::control_points(border, centroid, wound::spacing_from_curvature(border, centroid));
             result.push_back({name, border, centroid, wound::prepare_flow(border, points, centroid)});
@@ -218,7 +158,7 @@ TEST(Warp, FrameAndCentroidStay)
 
 TEST(Warp, IsContinuousInTheRatio)
 {
-    // Across a whole number of steps, r = .75^2, the partial step vanishes or a new one appears.
+    // Across a whole number of steps, r = .62^2, the partial step vanishes or a new one appears.
     const auto& flow = shapes()[1].flow;
     const double r = wound::kStepScale * wound::kStepScale;
     const cv::Mat2d a = wound::backward_map(wound::make_warp(flow, r * (1 - 1e-6), WarpRung::composed), 32);
@@ -238,7 +178,7 @@ TEST(Warp, RatioOneIsTheIdentityAndZeroIsDrawnAsTheSmallest)
 
 TEST(Warp, CoincidentAndCollinearControlPointsAreSolved)
 {
-    const Polyline border = polar([](double) { return .4; });
+    const Polyline border = shapes().front().border;
     Polyline points = wound::control_points(border, {0, 0}, .1);
     points.push_back(points.front());
     points.push_back(points[1] * (1 - 1e-6));
@@ -249,6 +189,23 @@ TEST(Warp, CoincidentAndCollinearControlPointsAreSolved)
     const Polyline line{{-.4, 0}, {-.2, 0}, {.2, 0}, {.4, 0}};
     const Warp flat = wound::make_warp(wound::prepare_flow(border, line, {0, 0}), .1, WarpRung::composed);
     EXPECT_LT(cv::norm(flat.apply(line[3] * std::sqrt(.1)) - line[3]), 1e-6);
+}
+
+TEST(Warp, LadderMeasuresWhatItClaims)
+{
+    const auto rows = wound::measure_ladder({wound::ladder_shapes().front()});
+    ASSERT_EQ(rows.size(), 4 * std::size(wound::kLadderRatios));
+    for (const wound::LadderRow& row : rows) {
+        if (row.rung == WarpRung::composed) {
+            EXPECT_EQ(row.error_texels, 0);
+        }
+        if (row.rung != WarpRung::dense) {
+            EXPECT_LT(std::abs(row.area_error), .02) << row.ratio;
+        } else if (row.ratio < .02) {
+            EXPECT_GT(row.folded_texels, 0);
+        }
+    }
+    EXPECT_NE(wound::ladder_markdown(rows).find("| composed | 0.05 | 0.000 |"), std::string::npos);
 }
 
 TEST(Warp, PackedLayoutHoldsEveryNumberInOrder)

@@ -65,7 +65,7 @@ Peak largest_ratio(const H3& curve);
 /// unknown or infinite is null.
 nlohmann::json fit_to_json(const std::vector<SeriesFit>& fits);
 
-/// Measurements with the three curves above their residuals, BGR, 960 x 640.
+/// Measurements with the three curves above their residuals, RGB, 960 x 640.
 cv::Mat3b draw_fit(const SeriesFit& fit);
 
 } // namespace wound

@@ -12,8 +12,8 @@ namespace {
 cv::Scalar color_of(CurveModel model)
 {
     return model == CurveModel::exponential ? cv::Scalar(60, 160, 60)
-           : model == CurveModel::weibull   ? cv::Scalar(200, 110, 30)
-                                            : cv::Scalar(40, 40, 210);
+           : model == CurveModel::weibull   ? cv::Scalar(30, 110, 200)
+                                            : cv::Scalar(210, 40, 40);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// The one exception for what the machine or the user's files do wrong. It lives in wound/ because wound/ depends on
-// nothing else of ours and everything else may depend on wound/.
+// The one exception for what the machine or the user's files do wrong. It lives in wound/ because wound/
+// depends on nothing else of ours and everything else may depend on wound/.
 #pragma once
 #include <fmt/format.h>
 #include <stdexcept>
@@ -7,7 +7,8 @@
 
 namespace cicatrix {
 
-/// what() is one line: "WHERE: WHAT; CURE". WHERE names the file and, where there is one, the field ("scene.json: /wounds/0/width_mm").
+/// what() is one line: "WHERE: WHAT; CURE". WHERE names the file and, where there is one, the field
+/// ("scene.json: /wounds/0/width_mm").
 class InputError : public std::runtime_error
 {
   public:

@@ -94,7 +94,7 @@ cv::Mat1f resample_mask(const cv::Mat1b& mask, const Resampling& resample)
 {
     cv::Mat1f coverage;
     mask.convertTo(coverage, CV_32F, 1 / 255.);
-    cv::GaussianBlur(coverage, coverage, {}, .8);
+    cv::GaussianBlur(coverage, coverage, {}, 1.2);
     cv::Mat1f soft = resample(coverage, cv::BORDER_CONSTANT);
     const double gain = std::max(1 / resample.pixels_per_texel, 1.);
     cv::Mat1f sharp = cv::min(cv::max((soft - .5F) * gain + .5F, 0), 1);
@@ -142,7 +142,11 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
     patch.mask = resample_mask(mask, resample);
     patch.opacity = first_opacity(patch.mask, picture);
     patch.width_mm = preparation.width_mm / kWoundShare;
-    return prepare_patch(std::move(patch), preparation, false);
+    PreparedWound wound = prepare_patch(std::move(patch), preparation, false);
+    wound.photo_mask = mask;
+    wound.photo_center = centroid;
+    wound.photo_side = side;
+    return wound;
 }
 
 PreparedWound prepare_patch(Patch patch, const Preparation& preparation, bool keep_depth)

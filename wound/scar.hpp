@@ -16,7 +16,7 @@ struct ScarState
     double pore_loss = 0;    // 1 no pores or fine lines .. 0 as skin
 };
 
-/// At months since closure, >= 0; negative counts as 0. Redness: 2.055 / (1 + t / 2.37), within .021 of +145,
+/// At months since closure, >= 0; negative counts as 0. Redness: 2.055 / (1 + t / 2.37), within .022 of +145,
 /// +89 and +36 % at 1, 3 and 12 months; pigmentation within .02 of +24, +15 and 0 % (Danielsen et al. 2013,
 /// Acta Derm. Venereol. 93(3), donor sites on the thigh). Height, sheen and pores follow the clinical course
 /// (raised for some months, flat, shiny for good) with amplitudes of our choice.

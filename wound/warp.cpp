@@ -16,7 +16,6 @@ constexpr int kHullReach = 32;       // angles over which the hull is widened an
 constexpr double kHullMargin = 1.05; // so that a blurred border is scaled as a whole
 constexpr double kCoincident =
     .002; // half a texel of 512: nearer control points count as one, or the system is near-singular
-constexpr int kGridNodes = 161; // odd, so that one node is the centroid
 
 double cross(cv::Point2d a, cv::Point2d b)
 {
@@ -93,9 +92,8 @@ cv::Point2d apply_radial(const Warp& warp, cv::Point2d p)
 }
 
 /// Node positions along one axis: sinh spreads them, finest around the centroid, from frame to frame.
-double node_position(int index, double centroid, double epsilon)
+double node_position(int index, int half, double centroid, double epsilon)
 {
-    const int half = kGridNodes / 2;
     const double t = static_cast<double>(index - half) / half;
     const double reach = t < 0 ? 1 + centroid : 1 - centroid;
     if (std::abs(index - half) == half)
@@ -104,13 +102,19 @@ double node_position(int index, double centroid, double epsilon)
 }
 
 /// The cell of nodes that holds `coordinate`, in closed form as the shader finds it.
-int node_cell(double coordinate, double centroid, double epsilon)
+int node_cell(double coordinate, int half, double centroid, double epsilon)
 {
     const double offset = coordinate - centroid;
     const double reach = offset < 0 ? 1 + centroid : 1 - centroid;
     const double t =
         std::copysign(std::asinh(std::abs(offset) / epsilon) / std::asinh(reach / epsilon), offset);
-    return std::clamp(static_cast<int>(std::floor((t + 1) * (kGridNodes / 2))), 0, kGridNodes - 2);
+    return std::clamp(static_cast<int>(std::floor((t + 1) * half)), 0, 2 * half - 1);
+}
+
+/// Nodes on either side of the centroid: a strongly contracted wound bends the map more.
+int half_nodes(double scale)
+{
+    return scale >= .6 && scale <= 1.1 ? 40 : 80;
 }
 
 /// The contracted wound, about scale x half a patch wide, gets as many nodes as its surroundings.
@@ -122,8 +126,9 @@ double grid_epsilon(double scale)
 cv::Point2d apply_grid(const Warp& warp, cv::Point2d p)
 {
     const double epsilon = grid_epsilon(warp.scale);
-    const int i = node_cell(p.x, warp.centroid.x, epsilon);
-    const int j = node_cell(p.y, warp.centroid.y, epsilon);
+    const int half = static_cast<int>(warp.nodes.size()) / 2;
+    const int i = node_cell(p.x, half, warp.centroid.x, epsilon);
+    const int j = node_cell(p.y, half, warp.centroid.y, epsilon);
     const double u = (p.x - warp.nodes[i].x) / (warp.nodes[i + 1].x - warp.nodes[i].x);
     const double v = (p.y - warp.nodes[j].y) / (warp.nodes[j + 1].y - warp.nodes[j].y);
     const cv::Vec2d above = warp.grid(j, i) * (1 - u) + warp.grid(j, i + 1) * u;
@@ -158,18 +163,20 @@ std::vector<ThinPlate> composed_steps(const ContractionFlow& flow, double scale)
 void fill_grid(Warp& warp, const std::vector<ThinPlate>& steps)
 {
     const double epsilon = grid_epsilon(warp.scale);
-    for (int i = 0; i < kGridNodes; ++i)
-        warp.nodes.emplace_back(node_position(i, warp.centroid.x, epsilon),
-                                node_position(i, warp.centroid.y, epsilon));
-    warp.grid.create(kGridNodes, kGridNodes);
-    cv::parallel_for_({0, kGridNodes}, [&](const cv::Range& rows) {
+    const int half = half_nodes(warp.scale);
+    const int count = 2 * half + 1;
+    for (int i = 0; i < count; ++i)
+        warp.nodes.emplace_back(node_position(i, half, warp.centroid.x, epsilon),
+                                node_position(i, half, warp.centroid.y, epsilon));
+    warp.grid.create(count, count);
+    cv::parallel_for_({0, count}, [&](const cv::Range& rows) {
         for (int j = rows.start; j < rows.end; ++j) {
-            std::vector<float> x(kGridNodes), y(kGridNodes, static_cast<float>(warp.nodes[j].y));
-            for (int i = 0; i < kGridNodes; ++i)
+            std::vector<float> x(count), y(count, static_cast<float>(warp.nodes[j].y));
+            for (int i = 0; i < count; ++i)
                 x[i] = static_cast<float>(warp.nodes[i].x);
             for (const ThinPlate& step : steps)
                 apply_in_place(step, x, y);
-            for (int i = 0; i < kGridNodes; ++i)
+            for (int i = 0; i < count; ++i)
                 warp.grid(j, i) = {x[i], y[i]};
         }
     });

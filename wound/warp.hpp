@@ -25,7 +25,7 @@ enum class WarpRung : std::uint32_t
     composed // thin-plate steps of at most kStepScale each: the reference
 };
 
-inline constexpr double kStepScale = .75; // a full step scales lengths about the centroid by this
+inline constexpr double kStepScale = .62; // a full step scales lengths about the centroid by this
 inline constexpr double kSmallestScale =
     .02; // sqrt r of the most contracted wound drawn: about a texel; below it is closed
 
