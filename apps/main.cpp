@@ -11,6 +11,7 @@
 #include "apps/graph_command.hpp"
 #include "apps/info.hpp"
 #include "apps/reflect.hpp"
+#include "apps/wound_commands.hpp"
 
 namespace {
 
@@ -49,6 +50,8 @@ int main(int argc, char** argv)
         app::add_capture_command(program);
         app::add_graph_command(program);
         app::add_info_command(program);
+        app::add_wound_command(program);
+        app::add_fit_command(program);
         app::add_reflect_command(program);
         app::add_bake_command(program);
         add_bake_head_command(program);

@@ -8,6 +8,7 @@
 
 #include "apps/json_fields.hpp"
 #include "shaders/shared/shading.h"
+#include "wound/fit.hpp"
 #include "wound/input_error.hpp"
 
 namespace app {
@@ -46,12 +47,17 @@ Direction read_direction(Fields& fields, const Direction& fallback)
             fields.number("elevation_deg", fallback.elevation_deg, -89, 89)};
 }
 
-wound::Healing read_healing(const json& object, const std::string& where)
+wound::Healing read_healing(const json& object, const std::string& where, const std::filesystem::path& scene)
 {
     Fields fields(object, where);
     wound::Healing healing;
     const std::string model = fields.choice("model", healing.model == wound::HealingModel::face ? "face" : "contraction", {"contraction", "face"});
     healing.model = model == "face" ? wound::HealingModel::face : wound::HealingModel::contraction;
+    if (const std::string areas = fields.text("areas", ""); !areas.empty())
+    {
+        const std::filesystem::path table = beside(scene, areas);
+        healing.curve = wound::fit_table(wound::read_area_table(table), table.string()).back().best().curve; // the mean of several
+    }
     healing.curve.gamma = fields.number("gamma", healing.curve.gamma, 0.5, 4);
     healing.curve.delta = fields.number("delta", healing.curve.delta, 0, 10);
     healing.curve.theta = fields.number("theta", healing.curve.theta, -1, 1);
@@ -73,7 +79,7 @@ WoundScene read_wound(const json& object, const std::string& where, const std::f
     wound.roll_deg = fields.number("roll_deg", wound.roll_deg, -360, 360);
     wound.depth_factor = fields.number("depth_factor", wound.depth_factor, 0, 5);
     if (const json* healing = fields.get("healing"))
-        wound.healing = read_healing(*healing, fields.where("healing"));
+        wound.healing = read_healing(*healing, fields.where("healing"), scene);
     if (!wound.mask.empty() && wound.photo.empty())
         fields.fail("mask", "is given without a photo", "name the photo it belongs to");
     fields.finish();
@@ -107,11 +113,11 @@ CameraScene read_camera(const json& object, const std::string& where)
 
 wound::Rung read_rung(Fields& fields, wound::Rung fallback)
 {
-    const std::string chosen = fields.choice("reflectance_model", std::string(name(fallback)), {"published", "clamped", "exponential", "two-stream-paper", "two-stream"});
-    for (const wound::Rung rung : {wound::Rung::Published, wound::Rung::Clamped, wound::Rung::Exponential, wound::Rung::TwoStreamPaper})
+    const std::string chosen = fields.choice("reflectance_model", std::string(name(fallback)), {"published", "clamped", "exponential", "two-stream-paper", "two-stream", "calibrated"});
+    for (const wound::Rung rung : {wound::Rung::Published, wound::Rung::Clamped, wound::Rung::Exponential, wound::Rung::TwoStreamPaper, wound::Rung::TwoStream})
         if (name(rung) == chosen)
             return rung;
-    return wound::Rung::TwoStream;
+    return wound::Rung::Calibrated;
 }
 
 /// An enum by the names of its values, in order.

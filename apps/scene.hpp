@@ -59,7 +59,7 @@ struct Scene
     std::filesystem::path head; // empty: the default head
     std::vector<WoundScene> wounds{WoundScene{}};
     std::string tissue = "light"; // a preset, or a tissue file
-    wound::Rung reflectance_model = wound::Rung::TwoStream;
+    wound::Rung reflectance_model = wound::Rung::Calibrated;
     passes::Shading shading = corrected_shading();
     std::vector<LightScene> lights{{{-38, 28}, 0.9, false, true, {1.0, 0.96, 0.91}, 1.25},
                                    {{60, 10}, 1.2, false, true, {0.86, 0.92, 1.0}, 0.4}};

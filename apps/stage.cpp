@@ -15,7 +15,7 @@
 namespace app {
 namespace {
 
-constexpr std::size_t lut_rows = 64;
+constexpr std::size_t table_rows = 64;
 
 glm::dvec3 face_middle(const passes::FaceFrame& face) { return face.nose_tip + face.unit_m * glm::dvec3(0, 0.13, -0.45); }
 /// Crown to chin, about; the object of the paper's set-up.
@@ -110,13 +110,8 @@ Stage::Stage(const engine::Device& device, const Scene& scene, Props props)
     const double last_day = std::max(1.0, *std::ranges::max_element(scene_.days));
     for (std::size_t i = 0; i < props_.wounds.size(); ++i)
     {
-        std::vector<wound::TissueDay> rows;
-        for (std::size_t row = 0; row < lut_rows; ++row)
-        {
-            const double day = passes::lut_row_day(row, lut_rows, last_day);
-            rows.push_back(wound::open_bed(props_.tissue, day, wound::healing_at(scene_.wounds[i].healing, day).depth_scale));
-        }
-        wounds_.push_back({props_.anchors[i], passes::upload_wound(device, props_.wounds[i].patch), passes::lut_tissue(rows, last_day)});
+        const passes::LutRows rows = passes::lut_rows(props_.tissue, scene_.wounds[i].healing, table_rows, last_day);
+        wounds_.push_back({props_.anchors[i], passes::upload_wound(device, props_.wounds[i].patch), passes::lut_tissue(rows.open, last_day)});
     }
     for (const LightScene& light : scene_.lights)
         lights_.push_back(make_light(light, props_.face));

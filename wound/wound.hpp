@@ -17,11 +17,14 @@ namespace wound {
 struct PreparedWound
 {
     Patch patch;
-    std::vector<cv::Point2d> border;         // closed polyline, patch coordinates, counter-clockwise seen on screen
+    std::vector<cv::Point2d> border; // closed polyline, patch coordinates, counter-clockwise seen on screen
     std::vector<cv::Point2d> control_points; // on the border, patch coordinates
     cv::Point2d centroid;                    // patch coordinates (0,0 up to rounding)
     double area = 0;                         // of the mask, patch units squared (the patch is 4)
     ContractionFlow flow;                    // what the warps of all days share
+    cv::Mat1b photo_mask;     // 255 in the wound, of the photograph's size; empty for a patch made elsewhere
+    cv::Point2d photo_center; // pixel coordinates of the patch's middle in the photograph
+    double photo_side = 0;    // pixels, of the patch's square in the photograph
 };
 
 /// One day. r is the unhealed ratio, 1 -> 0; recovery = 1 - r (PAPER.md 1 keeps the two apart).
