@@ -39,11 +39,13 @@ cv::Mat3b srgb_from_linear(const cv::Mat3f& linear)
 
 cv::Mat3f lab_from_linear(const cv::Mat3f& linear)
 {
-    cv::Mat3f encoded(linear.size());
-    std::transform(linear.begin(), linear.end(), encoded.begin(),
-                   [](const cv::Vec3f& p) { return cv::Vec3f(encode(p[0]), encode(p[1]), encode(p[2])); });
-    cv::Mat3f lab;
-    cv::cvtColor(encoded, lab, cv::COLOR_RGB2Lab);
+    // Not cv::cvtColor: its tables take a tenth of a second to fill on first use.
+    cv::Mat3f lab(linear.size());
+    std::transform(linear.begin(), linear.end(), lab.begin(), [](const cv::Vec3f& p) {
+        const auto inside = [](float x) { return std::clamp(double(x), 0., 1.); };
+        const Lab value = lab_from_linear(Color(inside(p[0]), inside(p[1]), inside(p[2])));
+        return cv::Vec3f(float(value.l), float(value.a), float(value.b));
+    });
     return lab;
 }
 
