@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <fmt/ranges.h>
-#include <fstream>
 
+#include "engine/file.hpp"
 #include "wound/input_error.hpp"
 
 namespace app {
@@ -11,14 +11,13 @@ using nlohmann::json;
 
 json read_json(const std::filesystem::path& path)
 {
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-        throw cicatrix::InputError(path.string(), "cannot be opened", "check the name and the permissions");
+    constexpr std::size_t largest = 64u << 20;
+    const std::vector<std::uint8_t> bytes = engine::read_file(path, largest);
     try
     {
-        return json::parse(file);
+        return json::parse(bytes);
     }
-    catch (const json::parse_error& error)
+    catch (const json::exception& error) // of syntax, or of a number too large for a double
     {
         std::string message = error.what(); // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
         if (const auto bracket = message.find("] "); bracket != std::string::npos)

@@ -43,7 +43,7 @@ void add_bake_head_command(CLI::App& program)
 int main(int argc, char** argv)
 {
     CLI::App program("Cicatrix shows how a wound on a face heals, day by day, from a photograph.", "cicatrix");
-    program.require_subcommand(1);
+    program.require_subcommand(0, 1); // that there is one is checked last, so that a misspelt one is named
     program.footer("Example: cicatrix capture --days 0:30:3 --out healing\nEach command explains itself: cicatrix capture --help");
     try
     {
@@ -56,6 +56,8 @@ int main(int argc, char** argv)
         app::add_bake_command(program);
         add_bake_head_command(program);
         program.parse(argc, argv);
+        if (program.get_subcommands().empty())
+            throw CLI::RequiredError("A command");
     }
     catch (const CLI::ParseError& error)
     {

@@ -65,7 +65,7 @@ wound::Photograph read_photograph(const WoundScene& scene)
     }
     wound::Photograph photograph{engine::read_rgb(scene.photo), {}};
     if (!scene.mask.empty())
-        photograph.mask = engine::read_mask(scene.mask);
+        photograph.mask = wound::checked_mask(engine::read_mask(scene.mask), photograph.srgb.size(), scene.mask.string());
     return photograph;
 }
 
@@ -113,15 +113,21 @@ Stage::Stage(const engine::Device& device, const Scene& scene, Props props)
         const passes::LutRows rows = passes::lut_rows(props_.tissue, scene_.wounds[i].healing, table_rows, last_day);
         wounds_.push_back({props_.anchors[i], passes::upload_wound(device, props_.wounds[i].patch), passes::lut_tissue(rows.open, last_day)});
     }
-    for (const LightScene& light : scene_.lights)
-        lights_.push_back(make_light(light, props_.face));
-    for (std::size_t i = 0; i < lights_.size(); ++i)
+    set_lights(scene_.lights);
+}
+
+void Stage::set_lights(const std::vector<LightScene>& lights)
+{
+    std::vector<wound::Light> made;
+    for (std::size_t i = 0; i < lights.size(); ++i)
     {
-        const std::string where = fmt::format("scene: /lights/{}", i);
-        wound::check_light(lights_[i], where);
-        wound::check_shading(scene_.shading.model, wound::translucency_distances(lights_[i], to_cv(face_middle(props_.face)), head_height(props_.face)),
+        made.push_back(make_light(lights[i], props_.face));
+        wound::check_light(made[i], fmt::format("scene: /lights/{}", i));
+        wound::check_shading(scene_.shading.model, wound::translucency_distances(made[i], to_cv(face_middle(props_.face)), head_height(props_.face)),
                              "scene: /shading");
     }
+    scene_.lights = lights;
+    lights_ = std::move(made);
 }
 
 std::vector<wound::WoundDay> Stage::wounds_on(double day) const

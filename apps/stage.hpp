@@ -34,6 +34,8 @@ class Stage
     const Scene& scene() const { return scene_; }
     const Props& props() const { return props_; }
     std::vector<wound::WoundDay> wounds_on(double day) const;
+    /// From the next frame on. Throws cicatrix::InputError and keeps the old ones when one is out of range.
+    void set_lights(const std::vector<LightScene>& lights);
 
     /// The scene's camera.
     passes::Camera camera() const;

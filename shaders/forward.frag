@@ -65,7 +65,7 @@ void main()
     if (AMBIENT)
         skin.occlusion = texture(occlusion_map, v_uv).r;
     // Written out, for an array of samplers indexed by a loop's counter costs a software rasteriser ten times as much.
-    ADD_WOUND(0) ADD_WOUND(1) ADD_WOUND(2) ADD_WOUND(3) ADD_WOUND(4) ADD_WOUND(5) ADD_WOUND(6) ADD_WOUND(7)
+    ADD_WOUND(0) ADD_WOUND(1) ADD_WOUND(2) ADD_WOUND(3) ADD_WOUND(4) ADD_WOUND(5) ADD_WOUND(6)
 
     frame = frame_of(bend_to_viewer(skin.normal, to_viewer), v_tangent);
     ShadingParams params = shading;

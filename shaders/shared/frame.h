@@ -7,10 +7,12 @@
 namespace shared {
 #endif
 
+// Four textures each, and the head's own four, make the 32 samplers that lavapipe allows a shader. (Beyond them it takes one
+// sampler for another.)
 #ifdef __cplusplus
-constexpr uint MAX_WOUNDS = 8;
+constexpr uint MAX_WOUNDS = 7;
 #else
-const uint MAX_WOUNDS = 8;
+const uint MAX_WOUNDS = 7;
 #endif
 
 struct View

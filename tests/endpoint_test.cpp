@@ -1,0 +1,105 @@
+// The two ends of healing: on day 0 the wound's own picture is seen, at closure the skin that was there before.
+#include <cmath>
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "apps/scene_options.hpp"
+#include "apps/stage.hpp"
+#include "tests/gpu.hpp"
+#include "tests/small_head.hpp"
+
+namespace {
+
+/// Nothing but C of eq. (4), in white light from everywhere.
+passes::Shading bare_color(passes::Shading shading)
+{
+    shading.lambert = shading.translucency = shading.ward = shading.normal_map = shading.shadow = false;
+    shading.ambient = glm::vec3(1);
+    return shading;
+}
+
+/// The linear radiance of a day, as floats.
+cv::Mat3f radiance(const app::Stage& stage, double day, const passes::Camera& camera, const passes::Shading& shading)
+{
+    engine::Graph graph;
+    graph.readback("picture", stage.declare(graph, stage.wounds_on(day), camera, shading, stage.scene().size).picture);
+    const auto found = std::ranges::find(graph.images, "radiance", &engine::Graph::Image::name);
+    const engine::ReadbackId back = graph.readback("radiance", {std::uint32_t(found - graph.images.begin())});
+    engine::Executor executor(gpu::device(), gpu::shaders());
+    cv::Mat4f linear;
+    executor.run(graph).mat(back).convertTo(linear, CV_32F);
+    cv::Mat3f rgb;
+    cv::cvtColor(linear, rgb, cv::COLOR_RGBA2RGB);
+    return rgb;
+}
+
+cv::Mat4b picture(const app::Stage& stage, double day)
+{
+    engine::Graph graph;
+    const engine::ReadbackId back =
+        graph.readback("picture", stage.declare(graph, stage.wounds_on(day), stage.camera(), stage.scene().shading, stage.scene().size).picture);
+    engine::Executor executor(gpu::device(), gpu::shaders());
+    return executor.run(graph).mat(back).clone();
+}
+
+using Endpoint = gpu::Test;
+
+} // namespace
+
+// A flat wall of one colour, seen straight on so that two pixels make one texel of the patch: what is seen must be the patch
+// over the wall's colour, as far as half floats hold it.
+TEST_F(Endpoint, DayZeroShowsTheWoundsOwnPicture)
+{
+    const glm::vec3 skin(0.55f, 0.36f, 0.27f);
+    for (const bool published : {false, true})
+    {
+        app::Scene scene = small::scene(small::wall(skin), 512);
+        scene.wounds[0].place = glm::dvec3(0);
+        if (published)
+            app::make_published(scene);
+        app::Stage::Props props = app::Stage::prepare(scene);
+        wound::Patch patch = props.wounds[0].patch;
+        props.wounds[0].patch.depth_mm.setTo(0); // a hollow would darken itself
+        const double half_width = props.anchors[0].half_width_m;
+        const app::Stage stage(gpu::device(), scene, std::move(props));
+        const double fov_deg = 2 * 180 / CV_PI * std::atan(0.5 * half_width / 1.0); // the middle half of the patch, from 1 m
+        const cv::Mat3f seen = radiance(stage, 0, {{0, 0, 1}, {0, 0, 0}, fov_deg}, bare_color(scene.shading));
+
+        cv::Mat2f texel(seen.size());
+        for (int y = 0; y < seen.rows; ++y)
+            for (int x = 0; x < seen.cols; ++x)
+                texel(y, x) = {(float(x) + 0.5f) / 2 + 127.5f, (float(y) + 0.5f) / 2 + 127.5f};
+        cv::Mat3f color;
+        cv::Mat1f opacity;
+        cv::remap(patch.color, color, texel, {}, cv::INTER_LINEAR);
+        cv::remap(patch.opacity, opacity, texel, {}, cv::INTER_LINEAR);
+        double largest = 0, opaque = 0;
+        cv::Point at;
+        for (int y = 0; y < seen.rows; ++y)
+            for (int x = 0; x < seen.cols; ++x)
+            {
+                const cv::Vec3f expected = opacity(y, x) * color(y, x) + (1 - opacity(y, x)) * cv::Vec3f(skin.x, skin.y, skin.z);
+                if (const double difference = cv::norm(seen(y, x) - expected, cv::NORM_INF); difference > largest)
+                {
+                    largest = difference;
+                    at = {x, y};
+                }
+                opaque += opacity(y, x) > 0.999;
+            }
+        EXPECT_GT(opaque / double(seen.total()), 0.3);
+        EXPECT_LT(largest, 0.004) << (published ? "published" : "corrected") << " mode, at " << at;
+    }
+}
+
+TEST_F(Endpoint, ClosureLeavesTheSkinThatWasThereBefore)
+{
+    app::Scene scene = small::scene(small::head());
+    scene.wounds[0].healing.model = wound::HealingModel::contraction;
+    app::Scene unhurt = scene;
+    unhurt.wounds.clear();
+    const app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
+    const app::Stage bare(gpu::device(), unhurt, app::Stage::prepare(unhurt));
+    const cv::Mat4b without = picture(bare, 365);
+    EXPECT_LE(cv::norm(picture(stage, 365), without, cv::NORM_INF), 1);
+    EXPECT_GT(cv::norm(picture(stage, 0), without, cv::NORM_INF), 40) << "on day 0 there is something to heal";
+}

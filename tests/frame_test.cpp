@@ -1,0 +1,130 @@
+// The real frame: which passes run again after which change, and that its pictures are reproducible.
+#include <gmock/gmock.h>
+
+#include "apps/stage.hpp"
+#include "tests/gpu.hpp"
+#include "tests/small_head.hpp"
+
+namespace {
+
+using engine::PassState;
+using testing::IsSupersetOf;
+using testing::UnorderedElementsAre;
+
+/// A scene on the shared device with the memory of what was drawn last.
+struct Studio
+{
+    explicit Studio(const app::Scene& scene) : stage(gpu::device(), scene, app::Stage::prepare(scene)), shading(scene.shading) {}
+
+    engine::FrameResult draw(double day)
+    {
+        engine::Graph graph;
+        graph.readback("picture", stage.declare(graph, stage.wounds_on(day), stage.camera(), shading, stage.scene().size).picture);
+        return executor.run(graph);
+    }
+    cv::Mat4b picture(double day) { return draw(day).mat({0}).clone(); }
+
+    app::Stage stage;
+    engine::Executor executor{gpu::device(), gpu::shaders()};
+    passes::Shading shading;
+};
+
+std::vector<std::string> passes_in(const engine::FrameResult& frame, PassState state)
+{
+    std::vector<std::string> names;
+    for (const engine::PassResult& pass : frame.passes)
+        if (pass.state == state)
+            names.push_back(pass.name);
+    return names;
+}
+
+std::vector<std::string> ran(const engine::FrameResult& frame) { return passes_in(frame, PassState::Run); }
+
+double share_that_differs(const cv::Mat4b& a, const cv::Mat4b& b, int by_more_than)
+{
+    cv::Mat difference;
+    cv::absdiff(a, b, difference);
+    int count = 0;
+    for (const cv::Vec4b& pixel : cv::Mat4b(difference))
+        count += std::max({pixel[0], pixel[1], pixel[2]}) > by_more_than;
+    return double(count) / double(a.total());
+}
+
+using Frame = gpu::Test;
+
+} // namespace
+
+TEST_F(Frame, RunsAgainOnlyWhatAChangeReaches)
+{
+    Studio studio(small::scene(small::head()));
+    EXPECT_THAT(ran(studio.draw(3)), UnorderedElementsAre("wound_texture", "wound_relief", "reflectance_lut", "shadow", "forward", "tonemap"));
+
+    const engine::FrameResult unchanged = studio.draw(3);
+    EXPECT_THAT(ran(unchanged), UnorderedElementsAre("forward", "tonemap"));
+    EXPECT_THAT(passes_in(unchanged, PassState::Skipped), UnorderedElementsAre("wound_texture", "wound_relief", "reflectance_lut", "shadow"));
+
+    EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("wound_texture", "wound_relief", "forward", "tonemap"));
+
+    std::vector<app::LightScene> lights = studio.stage.scene().lights;
+    lights[0].intensity *= 0.5;
+    studio.stage.set_lights(lights);
+    EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("forward", "tonemap"));
+
+    lights[0].from.azimuth_deg += 10; // the key light: it casts the shadow
+    studio.stage.set_lights(lights);
+    EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("shadow", "forward", "tonemap"));
+
+    lights[1].from.azimuth_deg += 10;
+    studio.stage.set_lights(lights);
+    EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("forward", "tonemap"));
+
+    studio.shading.shadow = false;
+    const engine::FrameResult unshadowed = studio.draw(4);
+    EXPECT_THAT(ran(unshadowed), UnorderedElementsAre("forward", "tonemap"));
+    EXPECT_EQ(unshadowed.passes.size(), 5u) << "no shadow pass is declared";
+}
+
+TEST_F(Frame, OfEveryWoundRunsAgainWhatTheDayReaches)
+{
+    app::Scene scene = small::scene(small::head(), 64);
+    scene.wounds.resize(2);
+    scene.wounds[1].place = std::string("forehead");
+    scene.wounds[1].healing.curve.delta = 0; // never heals
+    scene.wounds[1].healing.model = wound::HealingModel::contraction;
+    Studio studio(scene);
+    EXPECT_THAT(ran(studio.draw(3)), IsSupersetOf({"wound_texture", "wound_texture 2", "reflectance_lut", "reflectance_lut 2"}));
+    EXPECT_THAT(ran(studio.draw(6)), UnorderedElementsAre("wound_texture", "wound_relief", "forward", "tonemap"));
+}
+
+TEST_F(Frame, WithoutWoundsDeclaresNoneOfTheirPasses)
+{
+    app::Scene scene = small::scene(small::head());
+    scene.wounds.clear();
+    Studio studio(scene);
+    const engine::FrameResult first = studio.draw(0);
+    EXPECT_EQ(first.passes.size(), 3u);
+    EXPECT_THAT(ran(first), UnorderedElementsAre("shadow", "forward", "tonemap"));
+    EXPECT_THAT(ran(studio.draw(9)), UnorderedElementsAre("forward", "tonemap"));
+}
+
+TEST_F(Frame, IsTheSameBitByBitInTwoRuns)
+{
+    const app::Scene scene = small::scene(small::head());
+    Studio first(scene), second(scene);
+    second.draw(0); // what was drawn before leaves no trace
+    const cv::Mat4b a = first.picture(7), b = second.picture(7);
+    EXPECT_EQ(share_that_differs(a, b, 0), 0);
+    EXPECT_GT(share_that_differs(a, first.picture(0), 8), 0.002) << "the wound is in the picture";
+}
+
+TEST_F(Frame, MultisamplingSmoothsEdgesAndLeavesTheRestAlone)
+{
+    app::Scene scene = small::scene(small::head());
+    Studio plain(scene);
+    scene.samples = 4;
+    Studio smooth(scene);
+    const cv::Mat4b a = plain.picture(5), b = smooth.picture(5);
+    const double edges = share_that_differs(a, b, 16);
+    EXPECT_GT(edges, 0.001);
+    EXPECT_LT(edges, 0.02);
+}
