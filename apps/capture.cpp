@@ -138,7 +138,7 @@ class Capture
         engine::ShaderLibrary library;
         engine::Executor executor(device, library);
         const Stage stage(device, scene_, props.get());
-        for (const std::string& note : stage.props().notes)
+        for (const std::string& note : stage.notes())
             fmt::print(stderr, "note: {}\n", note);
 
         for (const double day : scene_.days)
@@ -197,7 +197,7 @@ class Capture
         json record{{"day", day}, {"file", file}, {"frame_ms", frame.frame_ms}, {"passes", pass_costs(frame)}, {"wounds", json::array()}};
         for (std::size_t i = 0; i < today.size(); ++i)
         {
-            const double initial = cv::sum(stage.props().wounds[i].patch.mask)[0];
+            const double initial = cv::sum(stage.prepared()[i].patch.mask)[0];
             record["wounds"].push_back(wound_record(today[i], bed_texels(frame.mat(states[i])) / initial));
         }
         if (!today.empty())

@@ -69,49 +69,77 @@ wound::Photograph read_photograph(const WoundScene& scene)
     return photograph;
 }
 
-} // namespace
-
-Stage::Props Stage::prepare(const Scene& scene)
+std::string name_of(const WoundScene& wound, std::size_t index)
 {
-    Props props;
+    return wound.photo.empty() ? fmt::format("wound {}", index + 1) : wound.photo.string();
+}
+
+wound::PreparedWound prepare_wound(const WoundScene& scene, const passes::FacePoint& face, const std::string& name)
+{
+    wound::Preparation preparation;
+    preparation.where = name;
+    preparation.width_mm = scene.width_mm;
+    preparation.depth.tissue = scaled(wound::tissue_thickness(tissue_coordinates(face)), scene.depth_factor);
+    return wound::prepare(read_photograph(scene), preparation);
+}
+
+std::shared_ptr<const engine::Model> read_head(const Scene& scene, std::vector<std::string>& notes)
+{
     const std::filesystem::path file = scene.head.empty() ? default_head_path() : scene.head;
     if (scene.head.empty() && !std::filesystem::exists(file))
         throw cicatrix::InputError(file.string(), "the default head has not been made yet",
                                    "run ./run setup (needs the network once), or give a head of your own with --head FILE.glb");
-    props.head = engine::load_model(file);
-    engine::normalise_size(props.head);
-    for (const std::string& note : props.head.notes)
-        props.notes.push_back(fmt::format("{}: {}", file.string(), note));
-    props.face = passes::find_face(props.head);
-    props.tissue = healing_tissue_or_file(scene.tissue);
-    const std::uint32_t skin = passes::skin_material(props.head);
+    auto head = std::make_shared<engine::Model>(engine::load_model(file));
+    engine::normalise_size(*head);
+    for (const std::string& note : head->notes)
+        notes.push_back(fmt::format("{}: {}", file.string(), note));
+    return head;
+}
 
+} // namespace
+
+Stage::Props Stage::prepare(const Scene& scene)
+{
+    // Where the place on the face is known without the head, a photograph is prepared while the head is being read.
+    std::vector<std::future<wound::PreparedWound>> early;
     for (std::size_t i = 0; i < scene.wounds.size(); ++i)
     {
         const WoundScene& wound = scene.wounds[i];
-        const std::string where = wound.photo.empty() ? fmt::format("wound {}", i + 1) : wound.photo.string();
-        const double patch_mm = wound.width_mm / wound::kWoundShare;
-        const passes::Anchor anchor = passes::anchor_wound(props.head, props.face, wound.place, patch_mm, wound.roll_deg, where + ": at");
-        wound::Preparation preparation;
-        preparation.where = where;
-        preparation.width_mm = wound.width_mm;
-        preparation.depth.tissue = scaled(wound::tissue_thickness(tissue_coordinates(anchor.face)), wound.depth_factor);
-        wound::PreparedWound prepared = wound::prepare(read_photograph(wound), preparation);
-        prepared.patch = wound::match_to_skin(prepared.patch, passes::skin_under(props.head, skin, anchor, preparation.patch_size));
-        props.wounds.push_back(std::move(prepared));
+        if (const auto face = passes::known_face_point(wound.place))
+            early.push_back(std::async(std::launch::async, prepare_wound, wound, *face, name_of(wound, i)));
+        else
+            early.emplace_back();
+    }
+
+    Props props;
+    props.head = read_head(scene, props.notes);
+    props.face = passes::find_face(*props.head);
+    props.tissue = healing_tissue_or_file(scene.tissue);
+    const std::uint32_t skin = passes::skin_material(*props.head);
+    for (std::size_t i = 0; i < scene.wounds.size(); ++i)
+    {
+        const WoundScene& wound = scene.wounds[i];
+        const passes::Anchor anchor = passes::anchor_wound(*props.head, props.face, wound.place, wound.width_mm / wound::kWoundShare,
+                                                           wound.roll_deg, name_of(wound, i) + ": at");
         props.anchors.push_back(anchor);
+        props.wounds.push_back(std::async(std::launch::async, [=, head = props.head, ready = early[i].share(), name = name_of(wound, i)] {
+            wound::PreparedWound prepared = ready.valid() ? ready.get() : prepare_wound(wound, anchor.face, name);
+            prepared.patch = wound::match_to_skin(prepared.patch, passes::skin_under(*head, skin, anchor, prepared.patch.color.cols));
+            return prepared;
+        }));
     }
     return props;
 }
 
 Stage::Stage(const engine::Device& device, const Scene& scene, Props props)
-    : scene_(scene), props_(std::move(props)), head_(passes::upload_head(device, props_.head, props_.anchors))
+    : scene_(scene), props_(std::move(props)), head_(passes::upload_head(device, *props_.head, props_.anchors))
 {
     const double last_day = std::max(1.0, *std::ranges::max_element(scene_.days));
     for (std::size_t i = 0; i < props_.wounds.size(); ++i)
     {
+        prepared_.push_back(props_.wounds[i].get());
         const passes::LutRows rows = passes::lut_rows(props_.tissue, scene_.wounds[i].healing, table_rows, last_day);
-        wounds_.push_back({props_.anchors[i], passes::upload_wound(device, props_.wounds[i].patch), passes::lut_tissue(rows.open, last_day)});
+        wounds_.push_back({props_.anchors[i], passes::upload_wound(device, prepared_[i].patch), passes::lut_tissue(rows.open, last_day)});
     }
     set_lights(scene_.lights);
 }
@@ -133,8 +161,8 @@ void Stage::set_lights(const std::vector<LightScene>& lights)
 std::vector<wound::WoundDay> Stage::wounds_on(double day) const
 {
     std::vector<wound::WoundDay> today;
-    for (std::size_t i = 0; i < props_.wounds.size(); ++i)
-        today.push_back(wound::wound_at(props_.wounds[i], scene_.wounds[i].healing, day));
+    for (std::size_t i = 0; i < prepared_.size(); ++i)
+        today.push_back(wound::wound_at(prepared_[i], scene_.wounds[i].healing, day));
     return today;
 }
 

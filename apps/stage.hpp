@@ -1,7 +1,8 @@
 // A scene made ready to draw: files read, wounds prepared and placed, everything uploaded once. From then on a frame is a
 // declaration and a run.
 #pragma once
-#include <functional>
+#include <future>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,10 +21,10 @@ class Stage
     /// one is opened. Lines for the user ("no normals: computed") are collected in `notes`. Throws cicatrix::InputError.
     struct Props
     {
-        engine::Model head;
+        std::shared_ptr<const engine::Model> head;
         passes::FaceFrame face;
-        std::vector<wound::PreparedWound> wounds; // matched to the skin they lie on
         std::vector<passes::Anchor> anchors;
+        std::vector<std::future<wound::PreparedWound>> wounds; // being matched to the skin they lie on
         wound::HealingTissue tissue;
         std::vector<std::string> notes;
     };
@@ -32,7 +33,8 @@ class Stage
     Stage(const engine::Device& device, const Scene& scene, Props props);
 
     const Scene& scene() const { return scene_; }
-    const Props& props() const { return props_; }
+    const std::vector<std::string>& notes() const { return props_.notes; }
+    const std::vector<wound::PreparedWound>& prepared() const { return prepared_; }
     std::vector<wound::WoundDay> wounds_on(double day) const;
     /// From the next frame on. Throws cicatrix::InputError and keeps the old ones when one is out of range.
     void set_lights(const std::vector<LightScene>& lights);
@@ -49,6 +51,7 @@ class Stage
   private:
     Scene scene_;
     Props props_;
+    std::vector<wound::PreparedWound> prepared_;
     passes::Head head_;
     std::vector<passes::SceneWound> wounds_;
     std::vector<wound::Light> lights_;

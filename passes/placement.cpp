@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 #include <limits>
 
 #include "wound/input_error.hpp"
@@ -114,6 +114,17 @@ std::vector<NamedPlace> named_places()
     return {{"cheek", {0.32, -0.06}}, {"eyebrow", {0.21, 0.44}}, {"chin", {0.08, -0.36}}, {"forehead", {0.05, 0.60}}, {"nose", {0.03, 0.10}}};
 }
 
+std::optional<FacePoint> known_face_point(const Place& place)
+{
+    if (const auto* face = std::get_if<FacePoint>(&place))
+        return *face;
+    if (const auto* name = std::get_if<std::string>(&place))
+        for (const NamedPlace& known : named_places())
+            if (*name == known.name)
+                return known.at;
+    return std::nullopt;
+}
+
 Anchor anchor_wound(const engine::Model& head, const FaceFrame& face, const Place& place, double patch_width_mm,
                     double roll_deg, const std::string& where)
 {
@@ -128,18 +139,11 @@ Anchor anchor_wound(const engine::Model& head, const FaceFrame& face, const Plac
     }
     else
     {
-        FacePoint at;
-        if (const auto* name = std::get_if<std::string>(&place))
-        {
-            const auto places = named_places();
-            const auto found = std::ranges::find_if(places, [&](const NamedPlace& p) { return *name == p.name; });
-            if (found == places.end())
-                throw cicatrix::InputError(where, "\"" + *name + "\" is no known place",
-                                           "use cheek, eyebrow, chin, forehead, nose, or coordinates");
-            at = found->at;
-        }
-        else
-            at = std::get<FacePoint>(place);
+        const std::optional<FacePoint> known = known_face_point(place);
+        if (!known)
+            throw cicatrix::InputError(where, "\"" + std::get<std::string>(place) + "\" is no known place",
+                                       "use cheek, eyebrow, chin, forehead, nose, or coordinates");
+        const FacePoint at = *known;
         const auto seen = seen_from_the_front(head, face.nose_tip.x + at.x * face.unit_m, face.nose_tip.y + at.y * face.unit_m);
         if (!seen)
             throw cicatrix::InputError(where, fmt::format("face coordinates [{:g}, {:g}] miss the head", at.x, at.y),

@@ -36,6 +36,8 @@ struct NamedPlace
     FacePoint at;
 };
 std::vector<NamedPlace> named_places();
+/// The face coordinates of a place that can be told without the head; none for a point in metres or an unknown name.
+std::optional<FacePoint> known_face_point(const Place& place);
 
 /// An orthonormal frame on the skin. The patch's texel (u right, v down) maps to centre + half_width (u right + v down).
 struct Anchor
