@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <map>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
@@ -128,11 +129,12 @@ TEST_F(WoundTextureOnGpu, WarpedMaskHasTheAreaThatWasAskedFor)
     expect_areas("irregular", prepared(irregular_photograph()));
 }
 
-// Single precision against double. Largest errors found on lavapipe, in texels of 512: radial .0006, grid .0008, dense .02,
-// composed .03; the bounds leave room for a device that rounds logarithms less well.
+// Single precision against double. Largest errors found on lavapipe, in texels of 512: radial .0001, grid .0001, dense .1 (one
+// thin plate over the whole way has huge weights that cancel), composed .001. The bounds leave room for a device that rounds
+// logarithms less well.
 TEST_F(WoundTextureOnGpu, EveryRungOfTheWarpEqualsTheReference)
 {
-    const std::map<WarpRung, double> bounds{{WarpRung::radial, .005}, {WarpRung::grid, .005}, {WarpRung::dense, .5}, {WarpRung::composed, .1}};
+    const std::map<WarpRung, double> bounds{{WarpRung::radial, .001}, {WarpRung::grid, .001}, {WarpRung::dense, .5}, {WarpRung::composed, .01}};
     engine::Executor executor(gpu::device(), gpu::shaders());
     for (const wound::Photograph& photograph : {wound::synthesize({}), irregular_photograph()})
     {
