@@ -84,15 +84,15 @@ TEST(Color, EightBitEncodingClampsWhatIsOutside)
 // CIELAB of the sRGB primaries under D65 as commonly tabulated (Lindbloom).
 TEST(Color, LabOfKnownColors)
 {
-    const Lab white = wound::lab_from_linear({1, 1, 1});
+    const Lab white = wound::lab_from_linear(wound::Color(1, 1, 1));
     EXPECT_NEAR(white.l, 100, 1e-9);
     EXPECT_NEAR(white.a, 0, 1e-9);
     EXPECT_NEAR(white.b, 0, 1e-9);
-    const Lab red = wound::lab_from_linear({1, 0, 0});
+    const Lab red = wound::lab_from_linear(wound::Color(1, 0, 0));
     EXPECT_NEAR(red.l, 53.24, 0.01);
     EXPECT_NEAR(red.a, 80.09, 0.01);
     EXPECT_NEAR(red.b, 67.20, 0.01);
-    const Lab black = wound::lab_from_linear({0, 0, 0});
+    const Lab black = wound::lab_from_linear(wound::Color(0, 0, 0));
     EXPECT_NEAR(black.l, 0, 1e-12);
 }
 

@@ -105,6 +105,7 @@ TEST(Contour, CountStaysWithinItsBounds)
 {
     const Polyline border = wound::border_of(disk(256, {0, 0}, .4));
     EXPECT_LE(wound::control_points(border, {0, 0}, 1e-4).size(), 512U);
+    EXPECT_LE(wound::control_points(border, {0, 0}, 1e-300).size(), 512U);
     EXPECT_GE(wound::control_points(border, {0, 0}, 10).size(), 8U);
 }
 

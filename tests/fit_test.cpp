@@ -2,6 +2,8 @@
 #include "wound/fit.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -158,6 +160,14 @@ TEST(Fit, TableOfSeveralWoundsGainsTheirMean)
     EXPECT_NEAR(json["series"][0]["half_time_days"].get<double>(), std::log(2) / .1, 1e-4);
     EXPECT_TRUE(json["series"][0]["models"]["h3"].contains("theta"));
     EXPECT_TRUE(json["series"][0]["models"]["exponential"]["gamma_se"].is_null());
+}
+
+TEST(Fit, AreasFileGivesACurve)
+{
+    const auto file = std::filesystem::temp_directory_path() / "cicatrix_fit_test_areas.csv";
+    std::ofstream(file) << "day,area\n0,20\n5,12.13\n10,7.36\n20,2.71\n30,1\n";
+    EXPECT_NEAR(wound::half_time(wound::curve_from_areas(file)), 6.93, .05); // exp(-day / 10)
+    std::filesystem::remove(file);
 }
 
 TEST(Fit, PictureShowsTheMeasurements)

@@ -91,6 +91,34 @@ TEST(Prepare, ScalingThePhotographChangesNothing)
     EXPECT_LT(cv::norm(a.patch.mask, b.patch.mask, cv::NORM_L1) / cv::sum(a.patch.mask)[0], .02);
 }
 
+TEST(Prepare, APhotographFarFinerThanThePatchGivesTheSamePatch)
+{
+    const auto photo = photograph({240, 240}, {120, 120}, bean);
+    wound::Photograph fine;
+    cv::resize(photo.srgb, fine.srgb, {}, 6, 6, cv::INTER_NEAREST);
+    cv::resize(photo.mask, fine.mask, {}, 6, 6, cv::INTER_NEAREST);
+    wound::Preparation preparation;
+    preparation.patch_size = 128;
+    const auto a = wound::prepare(photo, preparation), b = wound::prepare(fine, preparation);
+    EXPECT_LT(cv::norm(a.patch.mask, b.patch.mask, cv::NORM_L1) / cv::sum(a.patch.mask)[0], .02);
+    EXPECT_LT(cv::norm(a.patch.color, b.patch.color, cv::NORM_INF), .2);
+    EXPECT_NEAR(b.photo_side, 6 * a.photo_side, 6);
+}
+
+TEST(Prepare, SeveralComponentsBecomeSeveralWoundsAtOneScale)
+{
+    auto photo = photograph({300, 200}, {90, 100}, testing_wounds::ellipse(45, 45));
+    cv::circle(photo.mask, {230, 100}, 15, 255, cv::FILLED);
+    const auto wounds = wound::prepare_all(photo, small_patch());
+    ASSERT_EQ(wounds.size(), 2U);
+    EXPECT_NEAR(wounds[0].photo_center.x, 90, .5);
+    EXPECT_NEAR(wounds[1].photo_center.x, 230, .5);
+    EXPECT_NEAR(wounds[0].patch.width_mm / wounds[0].photo_side,
+                wounds[1].patch.width_mm / wounds[1].photo_side, 1e-9);
+    photo.mask.setTo(0);
+    EXPECT_THROW(wound::prepare_all(photo, small_patch()), cicatrix::InputError);
+}
+
 TEST(Prepare, AOnePixelWoundAndOneThatNearlyFillsThePhotographWork)
 {
     auto photo = photograph({64, 64}, {32, 32}, [](double, double) { return 2.; });

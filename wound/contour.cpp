@@ -224,6 +224,8 @@ Moments moments_of(const cv::Mat1f& coverage)
 Polyline control_points(const Polyline& border, cv::Point2d centroid, double spacing)
 {
     CV_Assert(border.size() >= 3 && spacing > 0);
+    spacing = std::max(spacing, widest_extent(border) /
+                                    kMostControlPoints); // finer lines would only be thinned out again
     Polyline points = crossings(border, centroid, spacing);
     constexpr int kTries = 40; // each changes the spacing by a quarter; more would be another shape
     for (int i = 0; i < kTries && static_cast<int>(points.size()) < kFewestControlPoints; ++i)

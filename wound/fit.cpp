@@ -239,6 +239,11 @@ std::vector<SeriesFit> fit_table(const std::vector<AreaSeries>& table, std::stri
     return fits;
 }
 
+H3 curve_from_areas(const std::filesystem::path& table)
+{
+    return fit_table(read_area_table(table), table.string()).back().best().curve;
+}
+
 Peak largest_ratio(const H3& curve)
 {
     // r rises only while -theta / sqrt(1 + theta^2 t^2) exceeds delta gamma t^(gamma-1): found on a

@@ -54,6 +54,9 @@ SeriesFit fit_series(const AreaSeries& series, std::string_view where, const Fit
 std::vector<SeriesFit> fit_table(const std::vector<AreaSeries>& table, std::string_view where,
                                  const FitOptions& options = {});
 
+/// The preferred curve of a table's mean (or of its only wound): what a scene's "areas" file stands for.
+H3 curve_from_areas(const std::filesystem::path& table);
+
 /// The largest ratio of the curve and the day on which it is reached.
 struct Peak
 {

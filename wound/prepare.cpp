@@ -111,7 +111,7 @@ void check(const Photograph& photograph, const Preparation& preparation)
     if (photograph.srgb.empty())
         throw cicatrix::InputError(preparation.where, "the photograph is empty",
                                    "give a PNG or JPEG picture");
-    if (!(preparation.width_mm >= .5 && preparation.width_mm <= 200))
+    if (!(preparation.width_mm >= kLeastWidth_mm && preparation.width_mm <= 200))
         throw cicatrix::InputError(fmt::format("{}: width_mm", preparation.where),
                                    fmt::format("{} is out of range", preparation.width_mm),
                                    "give the wound's longer side, from 0.5 to 200 mm");
@@ -123,23 +123,33 @@ void check(const Photograph& photograph, const Preparation& preparation)
 PreparedWound prepare(const Photograph& photograph, const Preparation& preparation)
 {
     check(photograph, preparation);
-    const cv::Mat1b mask = photograph.mask.empty()
-                               ? checked_mask(segment(photograph.srgb, preparation.hints, preparation.where),
-                                              photograph.srgb.size(), preparation.where)
-                               : checked_mask(photograph.mask, photograph.srgb.size(), preparation.where);
+    const cv::Mat1b mask =
+        checked_mask(photograph.mask.empty() ? segment(photograph.srgb, preparation.hints, preparation.where)
+                                             : photograph.mask,
+                     photograph.srgb.size(), preparation.where);
     const cv::Rect bounds = cv::boundingRect(mask);
     const cv::Moments moments = cv::moments(mask, true);
     const cv::Point2d centroid(moments.m10 / moments.m00, moments.m01 / moments.m00);
     const double side = std::max(bounds.width, bounds.height) / kWoundShare;
-    const Resampling resample(centroid, side, preparation.patch_size);
 
+    // A photograph much finer than the patch is made coarser first: its linear colours would need gigabytes.
+    constexpr double kFinest = 4; // pixels per texel
+    const double shrink = std::min(1., kFinest * preparation.patch_size / side);
+    cv::Mat3b srgb = photograph.srgb;
+    cv::Mat1b working_mask = mask;
+    if (shrink < 1) {
+        cv::resize(photograph.srgb, srgb, {}, shrink, shrink, cv::INTER_AREA);
+        cv::resize(mask, working_mask, srgb.size(), 0, 0, cv::INTER_AREA);
+    }
+    const cv::Point2d center = (centroid + cv::Point2d(.5, .5)) * shrink - cv::Point2d(.5, .5);
+    const Resampling resample(center, side * shrink, preparation.patch_size);
     cv::Mat1f whole;
-    picture_area(photograph.srgb).convertTo(whole, CV_32F, 1 / 255.);
+    picture_area(srgb).convertTo(whole, CV_32F, 1 / 255.);
     const cv::Mat1f picture = resample(whole, cv::BORDER_CONSTANT);
     Patch patch;
-    patch.color = resample(linear_from_srgb(photograph.srgb), cv::BORDER_REPLICATE);
+    patch.color = resample(linear_from_srgb(srgb), cv::BORDER_REPLICATE);
     fill_outside(patch.color, picture);
-    patch.mask = resample_mask(mask, resample);
+    patch.mask = resample_mask(working_mask, resample);
     patch.opacity = first_opacity(patch.mask, picture);
     patch.width_mm = preparation.width_mm / kWoundShare;
     PreparedWound wound = prepare_patch(std::move(patch), preparation, false);
@@ -147,6 +157,25 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
     wound.photo_center = centroid;
     wound.photo_side = side;
     return wound;
+}
+
+std::vector<PreparedWound> prepare_all(const Photograph& photograph, const Preparation& preparation)
+{
+    check(photograph, preparation);
+    if (photograph.mask.empty() || photograph.mask.size() != photograph.srgb.size())
+        return {prepare(photograph, preparation)};
+    std::vector<PreparedWound> wounds;
+    for (const cv::Mat1b& component : components(photograph.mask > 127)) {
+        Preparation one = preparation;
+        if (!wounds.empty()) { // the same millimetres per pixel as in the largest wound
+            const cv::Rect bounds = cv::boundingRect(component);
+            const double side = std::max(bounds.width, bounds.height) / kWoundShare;
+            one.width_mm = std::max(preparation.width_mm * side / wounds.front().photo_side, kLeastWidth_mm);
+        }
+        wounds.push_back(prepare({photograph.srgb, component}, one));
+    }
+    return wounds.empty() ? std::vector{prepare(photograph, preparation)}
+                          : wounds; // an empty mask: refused there
 }
 
 PreparedWound prepare_patch(Patch patch, const Preparation& preparation, bool keep_depth)

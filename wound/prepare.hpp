@@ -2,6 +2,7 @@
 // (wound/wound.hpp).
 #pragma once
 #include <string>
+#include <vector>
 
 #include "wound/depth.hpp"
 #include "wound/segmentation.hpp"
@@ -10,6 +11,7 @@
 namespace wound {
 
 inline constexpr double kWoundShare = .45; // the wound's longer side / the patch's side
+inline constexpr double kLeastWidth_mm = .5;
 
 struct Preparation
 {
@@ -26,6 +28,10 @@ struct Preparation
 /// control points, depth and the contraction's flow in it. The colour is the photograph's own;
 /// match_to_skin() fits it to a face. Throws cicatrix::InputError.
 PreparedWound prepare(const Photograph& photograph, const Preparation& preparation);
+
+/// Every wound of a mask with several components, the largest first; width_mm is the largest one's, and
+/// photo_center tells how they lie. Without a mask the one wound that segmentation finds.
+std::vector<PreparedWound> prepare_all(const Photograph& photograph, const Preparation& preparation);
 
 /// The same for a patch made elsewhere: color, mask and width_mm are filled; depth too when `keep_depth`.
 PreparedWound prepare_patch(Patch patch, const Preparation& preparation, bool keep_depth);

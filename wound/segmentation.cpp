@@ -233,6 +233,18 @@ cv::Rect best_rectangle(const cv::Mat3b& srgb, const cv::Rect& bounds, cv::Point
     return best;
 }
 
+/// Of picture_area(), found at a size at which it costs little.
+cv::Rect picture_bounds(const cv::Mat3b& srgb)
+{
+    const double scale = std::min(1., 1024. / std::max(srgb.cols, srgb.rows));
+    cv::Mat3b small;
+    cv::resize(srgb, small, {}, scale, scale, cv::INTER_AREA);
+    const cv::Rect found = cv::boundingRect(picture_area(small));
+    return cv::Rect(cvFloor(found.x / scale), cvFloor(found.y / scale), cvCeil(found.width / scale),
+                    cvCeil(found.height / scale)) &
+           cv::Rect(cv::Point(), srgb.size());
+}
+
 [[noreturn]] void no_wound(std::string_view where, std::string_view why)
 {
     throw cicatrix::InputError(
@@ -277,7 +289,7 @@ cv::Mat1b segment(const cv::Mat3b& srgb, const SegmentationHints& hints, std::st
         throw cicatrix::InputError(where, "the seed lies outside the photograph",
                                    "give X,Y in pixels inside it");
 
-    const cv::Rect bounds = cv::boundingRect(picture_area(srgb));
+    const cv::Rect bounds = picture_bounds(srgb);
     if (bounds.width < kLeastSide || bounds.height < kLeastSide)
         no_wound(where, "the photograph is black");
     const cv::Rect rect =

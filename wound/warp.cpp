@@ -114,7 +114,7 @@ int node_cell(double coordinate, int half, double centroid, double epsilon)
 /// Nodes on either side of the centroid: a strongly contracted wound bends the map more.
 int half_nodes(double scale)
 {
-    return scale >= .6 && scale <= 1.1 ? 40 : 80;
+    return scale >= .6 ? 40 : scale >= .15 ? 80 : 112;
 }
 
 /// The contracted wound, about scale x half a patch wide, gets as many nodes as its surroundings.

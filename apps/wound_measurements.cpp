@@ -1,0 +1,77 @@
+#include "apps/wound_measurements.hpp"
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "engine/image_io.hpp"
+#include "wound/agreement.hpp"
+#include "wound/prepare.hpp"
+#include "wound/segmentation.hpp"
+#include "wound/warp_ladder.hpp"
+
+namespace app {
+
+namespace {
+
+/// The drawn shapes, and the border of each mask.
+void measure_warps(const std::vector<std::string>& masks)
+{
+    std::vector<wound::LadderShape> shapes = wound::ladder_shapes();
+    for (const std::string& file : masks) {
+        wound::Photograph photograph;
+        photograph.mask = engine::read_mask(file);
+        photograph.srgb = cv::Mat3b(photograph.mask.size(), cv::Vec3b(128, 128, 128));
+        wound::Preparation preparation;
+        preparation.where = file;
+        const wound::PreparedWound prepared = wound::prepare(photograph, preparation);
+        shapes.push_back({std::filesystem::path(file).stem().string(), prepared.border, prepared.centroid});
+    }
+    fmt::print("{}", wound::ladder_markdown(wound::measure_ladder(shapes)));
+}
+
+/// With a rectangle a tenth larger than the mask's, with a seed in its middle, and without a hint.
+void measure_segmentation(const std::string& photo, const std::string& mask)
+{
+    const cv::Mat3b srgb = engine::read_rgb(photo);
+    const cv::Mat1b truth = wound::checked_mask(engine::read_mask(mask), srgb.size(), mask);
+    const cv::Rect bounds = cv::boundingRect(truth);
+    const cv::Size margin(bounds.width / 10, bounds.height / 10);
+    wound::SegmentationHints rect, seed;
+    rect.rect = (bounds - cv::Point(margin) + margin + margin) & cv::Rect(cv::Point(), srgb.size());
+    seed.seed = (bounds.tl() + bounds.br()) / 2;
+    for (const auto& [name, hints] :
+         {std::pair("rectangle", rect), {"seed", seed}, {"no hint", wound::SegmentationHints{}}})
+    {
+        const cv::Mat1b found = wound::segment(srgb, hints, photo);
+        const wound::ContourAgreement fit = wound::agreement(found, truth);
+        fmt::print("{:<10} intersection over union {:.3f}; laid centroid on centroid {:.3f}, border {:.1f} "
+                   "px apart, area {:.3f} of the mask's\n",
+                   name, wound::intersection_over_union(found, truth), fit.intersection_over_union,
+                   fit.border_distance_px, fit.area_ratio);
+    }
+}
+
+} // namespace
+
+void add_warps_command(CLI::App& program)
+{
+    auto masks = std::make_shared<std::vector<std::string>>();
+    CLI::App* command =
+        program.add_subcommand("warps", "Print error, area, folds and cost of every warp (docs/warp.md)");
+    command->add_option("masks", *masks, "Masks whose borders are measured too")->type_name("MASK");
+    command->callback([masks] { measure_warps(*masks); });
+}
+
+void add_segmentation_command(CLI::App& program)
+{
+    auto files = std::make_shared<std::pair<std::string, std::string>>();
+    CLI::App* command = program.add_subcommand(
+        "segmentation", "Compare the wound found in a photograph with one drawn by hand");
+    command->add_option("photo", files->first, "Photograph of a wound, PNG or JPEG")
+        ->required()
+        ->type_name("PHOTO");
+    command->add_option("mask", files->second, "The wound white on black")->required()->type_name("MASK");
+    command->callback([files] { measure_segmentation(files->first, files->second); });
+}
+
+} // namespace app
