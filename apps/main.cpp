@@ -12,6 +12,7 @@
 #include "apps/info.hpp"
 #include "apps/reflect.hpp"
 #include "apps/wound_commands.hpp"
+#include "apps/wound_measurements.hpp"
 
 namespace {
 
@@ -52,6 +53,8 @@ int main(int argc, char** argv)
         app::add_info_command(program);
         app::add_wound_command(program);
         app::add_fit_command(program);
+        app::add_warps_command(program);
+        app::add_segmentation_command(program);
         app::add_reflect_command(program);
         app::add_bake_command(program);
         add_bake_head_command(program);
