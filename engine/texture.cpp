@@ -37,6 +37,18 @@ float linear_to_srgb(float linear)
     return linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
+/// The values of 8-bit sRGB codes in linear light, scaled to 0..255.
+const std::array<float, 256>& linear_of_code()
+{
+    static const std::array<float, 256> table = [] {
+        std::array<float, 256> values{};
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = 255.0f * srgb_to_linear(static_cast<float>(i) / 255.0f);
+        return values;
+    }();
+    return table;
+}
+
 /// 8-bit and half pictures as float, sRGB colour as linear light; values of 8-bit pictures stay 0..255.
 cv::Mat to_linear_float(const cv::Mat& picture, Encoding encoding)
 {
@@ -44,17 +56,36 @@ cv::Mat to_linear_float(const cv::Mat& picture, Encoding encoding)
     picture.convertTo(linear, CV_32F);
     if (encoding == Encoding::Linear)
         return linear;
-    static const std::array<float, 256> table = [] {
-        std::array<float, 256> values{};
-        for (std::size_t i = 0; i < values.size(); ++i)
-            values[i] = 255.0f * srgb_to_linear(static_cast<float>(i) / 255.0f);
-        return values;
-    }();
-    linear.forEach<cv::Vec4f>([](cv::Vec4f& texel, const int*) {
+    const std::array<float, 256>& table = linear_of_code();
+    linear.forEach<cv::Vec4f>([&table](cv::Vec4f& texel, const int*) {
         for (int c = 0; c < 3; ++c)
             texel[c] = table[static_cast<std::size_t>(texel[c])];
     });
     return linear;
+}
+
+/// The first halving of an 8-bit picture of even size, straight from its bytes: a large picture as floats takes longer to write than
+/// all the levels below it.
+cv::Mat half_from_bytes(const cv::Mat& picture, Encoding encoding)
+{
+    const int channels = picture.channels();
+    cv::Mat half(picture.rows / 2, picture.cols / 2, CV_MAKETYPE(CV_32F, channels));
+    const std::array<float, 256>& table = linear_of_code();
+    cv::parallel_for_(cv::Range(0, half.rows), [&](const cv::Range& rows) {
+        for (int y = rows.start; y < rows.end; ++y) {
+            const uchar *upper = picture.ptr(2 * y), *lower = picture.ptr(2 * y + 1);
+            float* to = half.ptr<float>(y);
+            for (int i = 0; i < half.cols * channels; ++i) {
+                const int c = i % channels, at = i / channels * 2 * channels + c;
+                const uchar four[] = {upper[at], upper[at + channels], lower[at], lower[at + channels]};
+                float sum = 0;
+                for (const uchar code : four)
+                    sum += encoding == Encoding::Srgb && c < 3 ? table[code] : float(code);
+                to[i] = sum / 4;
+            }
+        }
+    });
+    return half;
 }
 
 cv::Mat from_linear_float(const cv::Mat& linear, int type, Encoding encoding)
@@ -149,7 +180,12 @@ Texture::Texture(const Device& device, const cv::Mat& picture, Encoding encoding
 std::vector<cv::Mat> mip_chain(const cv::Mat& picture, Encoding encoding)
 {
     std::vector<cv::Mat> levels{picture};
-    cv::Mat linear = to_linear_float(picture, encoding);
+    cv::Mat linear;
+    if (picture.depth() == CV_8U && picture.cols % 2 == 0 && picture.rows % 2 == 0) {
+        linear = half_from_bytes(picture, encoding);
+        levels.push_back(from_linear_float(linear, picture.type(), encoding));
+    } else
+        linear = to_linear_float(picture, encoding);
     while (linear.cols > 1 || linear.rows > 1) {
         cv::Mat half;
         cv::resize(linear, half, {std::max(1, linear.cols / 2), std::max(1, linear.rows / 2)}, 0, 0,

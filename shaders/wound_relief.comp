@@ -29,22 +29,22 @@ void main()
     const float b = depth(p + ivec2(-1, 1)) + 2 * depth(p + ivec2(0, 1)) + depth(p + ivec2(1, 1));
     const vec2 slope = vec2(r - l, b - t) / (8 * params.texel_mm);
 
-    // Horizon-based occlusion over eight directions: how far the walls stand up around this point. cos^2 of the
+    // Horizon-based occlusion over six directions: how far the walls stand up around this point. cos^2 of the
     // horizon's elevation is the cosine-weighted share of the sky that a direction's slice still sees.
     const float here = depth(p);
     float open = 0;
-    for (int k = 0; k < 8; ++k)
+    for (int k = 0; k < 6; ++k)
     {
-        const float angle = 6.2831853 * (float(k) + 0.5) / 8;
+        const float angle = 6.2831853 * (float(k) + 0.5) / 6;
         const vec2 direction = vec2(cos(angle), sin(angle));
         float steepest = 0; // tangent of the horizon's elevation
-        for (int step = 1; step <= 6; ++step)
+        for (int step = 1; step <= 4; ++step)
         {
-            const float distance_texels = params.reach_texels * float(step * step) / 36;
+            const float distance_texels = params.reach_texels * float(step * step) / 16;
             const float rise = here - depth(p + ivec2(round(direction * distance_texels)));
             steepest = max(steepest, rise / (max(distance_texels, 1.0) * params.texel_mm));
         }
         open += 1 / (1 + steepest * steepest);
     }
-    imageStore(relief, p, vec4(slope, open / 8, here));
+    imageStore(relief, p, vec4(slope, open / 6, here));
 }
