@@ -156,6 +156,28 @@ TEST(Warp, FrameAndCentroidStay)
             }
 }
 
+TEST(Warp, ACrescentStaysWithinTheHullOfItsDayZero)
+{
+    const Shape& crescent = shapes()[3];
+    ASSERT_EQ(crescent.name, "crescent");
+    std::vector<cv::Point2f> border, hull;
+    for (cv::Point2d p : crescent.border)
+        border.emplace_back(p);
+    cv::convexHull(border, hull);
+    for (double r : {.6, .2, .05}) {
+        const Warp warp = wound::make_warp(crescent.flow, r);
+        int covered = 0;
+        for (int i = 0; i < 200 * 200; ++i) {
+            const cv::Point2d p((i % 200 + .5) / 100 - 1, (i / 200 + .5) / 100 - 1);
+            if (cv::pointPolygonTest(border, cv::Point2f(warp.apply(p)), false) < 0)
+                continue;
+            ++covered;
+            EXPECT_GT(cv::pointPolygonTest(hull, cv::Point2f(p), true), -.003) << r; // under a texel of 512
+        }
+        EXPECT_GT(covered, 20);
+    }
+}
+
 TEST(Warp, IsContinuousInTheRatio)
 {
     // Across a whole number of steps, r = .62^2, the partial step vanishes or a new one appears.

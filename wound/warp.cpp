@@ -14,8 +14,8 @@ namespace {
 constexpr int kHullAngles = 256;
 constexpr int kHullReach = 32;       // angles over which the hull is widened and smoothed
 constexpr double kHullMargin = 1.05; // so that a blurred border is scaled as a whole
-constexpr double kCoincident =
-    .002; // half a texel of 512: nearer control points count as one, or the system is near-singular
+// Control points nearer than half a texel of 512 count as one: the system would be near-singular.
+constexpr double kCoincident = .002;
 
 double cross(cv::Point2d a, cv::Point2d b)
 {
