@@ -4,7 +4,6 @@
 #include <deque>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 #include <fstream>
 #include <future>
 #include <nlohmann/json.hpp>

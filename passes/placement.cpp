@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <limits>
 
+#include "wound/color.hpp"
 #include "wound/input_error.hpp"
 
 namespace passes {
@@ -90,8 +91,8 @@ cv::Vec3f linear_albedo(const engine::Material& material, const glm::dvec2& uv)
         return {factor.x, factor.y, factor.z};
     const auto wrap = [](double t, int n) { return std::clamp(int(std::floor((t - std::floor(t)) * n)), 0, n - 1); };
     const cv::Vec4b texel = material.base_color(wrap(uv.y, material.base_color.rows), wrap(uv.x, material.base_color.cols));
-    const auto linear = [](float s) { return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f); };
-    return {linear(texel[0] / 255.0f) * factor.x, linear(texel[1] / 255.0f) * factor.y, linear(texel[2] / 255.0f) * factor.z};
+    const auto linear = [&](int channel) { return wound::srgb_to_linear(texel[channel] / 255.0f); };
+    return {linear(0) * factor.x, linear(1) * factor.y, linear(2) * factor.z};
 }
 
 } // namespace
