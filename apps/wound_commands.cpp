@@ -64,7 +64,7 @@ struct WoundCommand
     std::string photo, mask;
     std::filesystem::path out = "out/wound";
     std::vector<int> seed, rect;
-    double width_mm = 30;
+    double width_mm = 30, spacing = 0;
     std::string model = "face";
 };
 
@@ -81,13 +81,18 @@ void show_wound(const WoundCommand& command)
         preparation.hints.seed = cv::Point(command.seed[0], command.seed[1]);
     if (!command.rect.empty())
         preparation.hints.rect = cv::Rect(command.rect[0], command.rect[1], command.rect[2], command.rect[3]);
-    const wound::PreparedWound prepared = wound::prepare(photograph, preparation);
+    preparation.control_spacing = 2 * command.spacing; // a patch is 2 patch units wide
+    const std::vector<wound::PreparedWound> all = wound::prepare_all(photograph, preparation);
     wound::Healing healing;
     healing.model = command.model == "face" ? wound::HealingModel::face : wound::HealingModel::contraction;
-    engine::write_png(command.out / "wound.png", draw_wound_page(photograph, prepared, healing));
-    engine::write_png(command.out / "mask.png", prepared.photo_mask);
-    write_json(command.out / "wound.json", wound_to_json(prepared, healing));
-    fmt::print("{} control points; wound.png, mask.png and wound.json in {}\n", prepared.control_points.size(), command.out.string());
+    for (std::size_t i = 0; i < all.size(); ++i) // the largest first; only the others carry a number
+    {
+        const std::string suffix = i == 0 ? "" : fmt::format("_{}", i + 1);
+        engine::write_png(command.out / ("wound" + suffix + ".png"), draw_wound_page(photograph, all[i], healing));
+        engine::write_png(command.out / ("mask" + suffix + ".png"), all[i].photo_mask);
+        write_json(command.out / ("wound" + suffix + ".json"), wound_to_json(all[i], healing));
+        fmt::print("wound{0}.png, mask{0}.png, wound{0}.json in {1}: {2} control points\n", suffix, command.out.string(), all[i].control_points.size());
+    }
 }
 
 } // namespace
@@ -112,6 +117,9 @@ void add_wound_command(CLI::App& program)
     command->add_option("--seed", options->seed, "A pixel inside the wound")->delimiter(',')->expected(2)->type_name("X,Y");
     command->add_option("--rect", options->rect, "A rectangle around the wound, in pixels")->delimiter(',')->expected(4)->type_name("X,Y,W,H");
     command->add_option("--width-mm", options->width_mm, "The wound's longer side on the skin, mm")->capture_default_str()->check(CLI::Range(0.5, 200.0));
+    command->add_option("--spacing", options->spacing, "Of the lines that give control points, as a share of the patch; 0: from the border's curvature")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 0.5));
     command->add_option("--model", options->model, "How it closes")->capture_default_str()->check(CLI::IsMember({"face", "contraction"}));
     command->add_option("--out", options->out, "Folder for wound.png, mask.png and wound.json")->capture_default_str()->type_name("DIR");
     command->footer("Example: cicatrix wound photo.jpg --rect 120,80,300,260 --out wound");
