@@ -49,6 +49,6 @@ struct ReflectanceLut
 /// `rung`: one that the shader knows, up to Calibrated; others are computed on the CPU (reflectance_table.hpp).
 /// Adds one compute pass `name`, which the graph skips while the tissue stands. Width: texels over depth.
 ReflectanceLut add_reflectance_lut(engine::Graph& graph, std::string_view name, const LutTissue& tissue,
-                                   wound::Rung rung, std::uint32_t width = 64);
+                                   wound::Rung rung, std::uint32_t width = 32);
 
 } // namespace passes
