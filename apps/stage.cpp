@@ -115,6 +115,10 @@ Stage::Props Stage::prepare(const Scene& scene)
     props.head = read_head(scene, props.notes);
     props.face = passes::find_face(*props.head);
     props.tissue = healing_tissue_or_file(scene.tissue);
+    if (const auto* table = std::get_if<wound::SkinLayers>(&props.tissue); table != nullptr && scene.reflectance_model == wound::Rung::Published)
+        if (const std::size_t outside = wound::outside_domain(*table).size(); outside > 0)
+            props.notes.push_back(fmt::format("eqs. (2) and (3) as printed are outside their domain in {} of {} layers and channels: colours of the wound are off, "
+                                              "often green (docs/optics.md)", outside, table->layers.size() * table->channels()));
     const std::uint32_t skin = passes::skin_material(*props.head);
     for (std::size_t i = 0; i < scene.wounds.size(); ++i)
     {
