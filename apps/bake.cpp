@@ -1,4 +1,5 @@
 #include "apps/bake.hpp"
+#include "apps/output.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -63,15 +64,6 @@ cv::Mat3b strip(const cv::Mat3f& open, const cv::Mat3f& covered, const shared::L
 }
 
 } // namespace
-
-void make_folder(const std::filesystem::path& folder)
-{
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-        throw cicatrix::InputError(folder.string(), "cannot be made: " + error.message(),
-                                   "name a folder you may write");
-}
 
 std::filesystem::path cache_folder()
 {

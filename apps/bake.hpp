@@ -33,7 +33,6 @@ void bake(const BakeOptions& options, std::ostream& out);
 
 /// cicatrix/ in XDG_CACHE_HOME, else in ~/.cache.
 std::filesystem::path cache_folder();
-void make_folder(const std::filesystem::path& folder); // InputError when it cannot be made
 
 /// The open bed of the default healing curve.
 wound::TissueDay open_bed_on(const wound::HealingTissue& tissue, double day);

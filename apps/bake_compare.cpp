@@ -7,6 +7,7 @@
 #include <random>
 
 #include "apps/bake.hpp"
+#include "apps/output.hpp"
 #include "apps/bake_pictures.hpp"
 #include "engine/image_io.hpp"
 #include "passes/reflectance_table.hpp"
@@ -255,11 +256,7 @@ void compare(const BakeOptions& options, std::ostream& out)
     fmt::print(out, "table against the photon walk: {}\n", json["table_against_walk"].dump());
     engine::write_png(options.out / "compare.png",
                       draw_plot(points, "cost per channel, microseconds", "rms error against Monte Carlo"));
-    std::ofstream file(options.out / "compare.json");
-    file << json.dump(2) << '\n';
-    if (!file)
-        throw cicatrix::InputError((options.out / "compare.json").string(), "cannot be written",
-                                   "check the disk and the permissions");
+    write_json(options.out / "compare.json", json);
 }
 
 } // namespace app

@@ -14,6 +14,7 @@
 
 #include "apps/contact_sheet.hpp"
 #include "apps/cost.hpp"
+#include "apps/output.hpp"
 #include "apps/scene_options.hpp"
 #include "apps/stage.hpp"
 #include "engine/executor.hpp"
@@ -56,14 +57,6 @@ class Writers
     }
     std::deque<std::future<void>> running_;
 };
-
-void make_folder(const std::filesystem::path& folder)
-{
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error || !std::filesystem::is_directory(folder) || ::access(folder.c_str(), W_OK) != 0)
-        throw cicatrix::InputError(folder.string(), "cannot be written to", "name another folder with --out");
-}
 
 /// day_005.png; day_005.5.png; the second frame of the same day is day_005_2.png.
 std::string picture_name(double day, int repetition)
@@ -150,9 +143,7 @@ class Capture
         record["days"] = days_;
         writers_.push([&] { engine::write_png(options_.out / "healing.png", contact_sheet(title(device), cells_, 6)); });
         writers_.finish();
-        engine::write_atomically(options_.out / "capture.json", [&](const std::filesystem::path& path) {
-            std::ofstream(path) << record.dump(2) << '\n';
-        });
+        write_json(options_.out / "capture.json", record);
         fail_on_validation(device);
         progress("");
         fmt::print("{} pictures, healing.png and capture.json in {}\n", days_.size(), options_.out.string());

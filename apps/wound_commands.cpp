@@ -2,28 +2,16 @@
 
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "apps/bake.hpp" // make_folder
+#include "apps/output.hpp"
 #include "apps/wound_page.hpp"
 #include "engine/image_io.hpp"
 #include "wound/fit.hpp"
-#include "wound/input_error.hpp"
 #include "wound/prepare.hpp"
 
 namespace app {
 namespace {
-
-void write_json(const std::filesystem::path& path, const nlohmann::json& json)
-{
-    engine::write_atomically(path, [&](const std::filesystem::path& temporary) {
-        std::ofstream file(temporary);
-        file << json.dump(2) << '\n';
-        if (!file.flush())
-            throw cicatrix::InputError(path.string(), "could not be written", "see that the disk is not full");
-    });
-}
 
 // ---- fit --------------------------------------------------------------------------------------------------------
 

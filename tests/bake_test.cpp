@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "apps/bake.hpp"
+#include "apps/output.hpp"
 #include "apps/reflect.hpp"
 #include "passes/reflectance_table.hpp"
 #include "tests/gpu.hpp"
