@@ -7,8 +7,8 @@
 #include <random>
 
 #include "apps/bake.hpp"
-#include "apps/output.hpp"
 #include "apps/bake_pictures.hpp"
+#include "apps/output.hpp"
 #include "engine/image_io.hpp"
 #include "passes/reflectance_table.hpp"
 #include "wound/input_error.hpp"

@@ -61,7 +61,8 @@ class Writers
 /// day_005.png; day_005.5.png; the second frame of the same day is day_005_2.png.
 std::string picture_name(double day, int repetition)
 {
-    std::string name = fmt::format("day_{:0>3}", day == std::floor(day) ? fmt::format("{:.0f}", day) : fmt::format("{:07.3f}", day));
+    std::string name = fmt::format("day_{:0>3}", day == std::floor(day) ? fmt::format("{:.0f}", day)
+                                                                        : fmt::format("{:07.3f}", day));
     return name + (repetition > 1 ? fmt::format("_{}", repetition) : "") + ".png";
 }
 
@@ -87,7 +88,8 @@ json pass_costs(const engine::FrameResult& frame)
 /// Wall-clock milliseconds since this process was started.
 double process_ms()
 {
-    // Field 22 of /proc/self/stat: start time in clock ticks since boot, behind a name that may hold blanks and parentheses.
+    // Field 22 of /proc/self/stat: start time in clock ticks since boot, behind a name that may hold blanks
+    // and parentheses.
     std::ifstream stat("/proc/self/stat"), uptime("/proc/uptime");
     std::string line;
     std::getline(stat, line);
@@ -119,7 +121,10 @@ json wound_record(const wound::WoundDay& today, double mask_area_ratio)
 class Capture
 {
   public:
-    Capture(const CaptureOptions& options, const Scene& scene) : options_(options), scene_(scene), terminal_(::isatty(STDERR_FILENO) != 0) {}
+    Capture(const CaptureOptions& options, const Scene& scene)
+        : options_(options), scene_(scene), terminal_(::isatty(STDERR_FILENO) != 0)
+    {
+    }
 
     void run()
     {
@@ -141,7 +146,9 @@ class Capture
             record["cost"] = measure_cost(executor, stage, cost_lines);
         record["first_picture_ms"] = *first_picture_ms_; // since the process started
         record["days"] = days_;
-        writers_.push([&] { engine::write_png(options_.out / "healing.png", contact_sheet(title(device), cells_, 6)); });
+        writers_.push([&] {
+            engine::write_png(options_.out / "healing.png", contact_sheet(title(device), cells_, 6));
+        });
         writers_.finish();
         write_json(options_.out / "capture.json", record);
         fail_on_validation(device);
@@ -156,7 +163,9 @@ class Capture
     {
         const std::uint32_t largest = device.limits().maxImageDimension2D;
         if (std::max(scene_.size[0], scene_.size[1]) > largest)
-            throw cicatrix::InputError("--size", fmt::format("{}x{} is more than {} can draw", scene_.size[0], scene_.size[1], device.info().name),
+            throw cicatrix::InputError("--size",
+                                       fmt::format("{}x{} is more than {} can draw", scene_.size[0],
+                                                   scene_.size[1], device.info().name),
                                        fmt::format("stay within {}x{}", largest, largest));
     }
 
@@ -171,7 +180,8 @@ class Capture
         progress(fmt::format("day {:g} ({} of {})", day, days_.size() + 1, scene_.days.size()));
         const std::vector<wound::WoundDay> today = stage.wounds_on(day);
         engine::Graph graph;
-        const passes::FrameImages images = stage.declare(graph, today, stage.camera(), scene_.shading, scene_.size);
+        const passes::FrameImages images =
+            stage.declare(graph, today, stage.camera(), scene_.shading, scene_.size);
         const engine::ReadbackId picture = graph.readback("picture", images.picture);
         std::vector<engine::ReadbackId> states;
         for (const passes::WoundTexture& wound : images.wounds)
@@ -184,9 +194,12 @@ class Capture
             first_picture_ms_ = process_ms();
         writers_.push([path = options_.out / file, rgb] { engine::write_png(path, rgb); });
 
-        json record{{"day", day}, {"file", file}, {"frame_ms", frame.frame_ms}, {"passes", pass_costs(frame)}, {"wounds", json::array()}};
-        for (std::size_t i = 0; i < today.size(); ++i)
-        {
+        json record{{"day", day},
+                    {"file", file},
+                    {"frame_ms", frame.frame_ms},
+                    {"passes", pass_costs(frame)},
+                    {"wounds", json::array()}};
+        for (std::size_t i = 0; i < today.size(); ++i) {
             const double initial = cv::sum(stage.prepared()[i].patch.mask)[0];
             record["wounds"].push_back(wound_record(today[i], bed_texels(frame.mat(states[i])) / initial));
         }
@@ -196,10 +209,12 @@ class Capture
         cells_.push_back({rgb, close_up(executor, stage, today), sheet_label(day, today)});
     }
 
-    cv::Mat3b close_up(engine::Executor& executor, const Stage& stage, const std::vector<wound::WoundDay>& today)
+    cv::Mat3b close_up(engine::Executor& executor, const Stage& stage,
+                       const std::vector<wound::WoundDay>& today)
     {
         engine::Graph graph;
-        const passes::FrameImages images = stage.declare(graph, today, stage.close_up(0), scene_.shading, scene_.size);
+        const passes::FrameImages images =
+            stage.declare(graph, today, stage.close_up(0), scene_.shading, scene_.size);
         const engine::ReadbackId picture = graph.readback("picture", images.picture);
         const engine::FrameResult frame = executor.run(graph);
         return to_rgb(frame.mat(picture));
@@ -207,12 +222,15 @@ class Capture
 
     static std::string sheet_label(double day, const std::vector<wound::WoundDay>& today)
     {
-        return fmt::format("day {:g}", day) + (today.empty() ? "" : fmt::format("   {:.0f} % open", 100 * today[0].unhealed_ratio));
+        return fmt::format("day {:g}", day) +
+               (today.empty() ? "" : fmt::format("   {:.0f} % open", 100 * today[0].unhealed_ratio));
     }
 
     std::string title(const engine::Device& device) const
     {
-        return fmt::format("{}   {} mode   {}", options_.scene.empty() ? "default scene" : std::filesystem::path(options_.scene).stem().string(),
+        return fmt::format("{}   {} mode   {}",
+                           options_.scene.empty() ? "default scene"
+                                                  : std::filesystem::path(options_.scene).stem().string(),
                            options_.mode == "published" ? "published" : "corrected", device.info().name);
     }
 
@@ -230,7 +248,8 @@ class Capture
     {
         const std::vector<std::string> messages = device.validation_messages();
         if (!messages.empty())
-            throw std::runtime_error(fmt::format("{} validation messages; the first: {}", messages.size(), messages.front()));
+            throw std::runtime_error(
+                fmt::format("{} validation messages; the first: {}", messages.size(), messages.front()));
     }
 
     const CaptureOptions& options_;
@@ -248,11 +267,15 @@ class Capture
 void add_capture_command(CLI::App& program)
 {
     auto options = std::make_shared<CaptureOptions>();
-    CLI::App* command = program.add_subcommand("capture", "Pictures of a wound healing, day by day, and what each cost");
+    CLI::App* command =
+        program.add_subcommand("capture", "Pictures of a wound healing, day by day, and what each cost");
     add_scene_options(*command, *options);
-    command->add_option("--out", options->out, "Folder for the pictures, healing.png and capture.json")->capture_default_str()->type_name("DIR");
+    command->add_option("--out", options->out, "Folder for the pictures, healing.png and capture.json")
+        ->capture_default_str()
+        ->type_name("DIR");
     command->add_flag("--no-cost", options->no_cost, "Leave out the cost measurement at the end");
-    command->footer("Example: cicatrix capture --days 0:30:3 --wound photo.jpg --mask mask.png --out healing");
+    command->footer(
+        "Example: cicatrix capture --days 0:30:3 --wound photo.jpg --mask mask.png --out healing");
     command->callback([options] {
         const Scene scene = chosen_scene(*options);
         Capture(*options, scene).run();

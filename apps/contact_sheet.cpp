@@ -17,11 +17,15 @@ cv::Mat3b fitted(const cv::Mat3b& picture, int width)
     return out;
 }
 
-void paste(cv::Mat3b& page, const cv::Mat3b& picture, cv::Point at) { picture.copyTo(page(cv::Rect(at, picture.size()))); }
+void paste(cv::Mat3b& page, const cv::Mat3b& picture, cv::Point at)
+{
+    picture.copyTo(page(cv::Rect(at, picture.size())));
+}
 
 } // namespace
 
-void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point origin, double height_px, cv::Scalar color)
+void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point origin, double height_px,
+                cv::Scalar color)
 {
     cv::putText(picture, text, origin, cv::FONT_HERSHEY_SIMPLEX, height_px / 22.0, color, 1, cv::LINE_AA);
 }
@@ -34,10 +38,10 @@ cv::Mat3b contact_sheet(const std::string& title, const std::vector<SheetCell>& 
     const int close_height = fitted(cells.front().close_up, width).rows;
     const int row_height = face_height + close_height + label_height + gap + 4;
     const int rows = (int(cells.size()) + columns - 1) / columns;
-    cv::Mat3b page(title_height + rows * row_height + gap, gap + columns * (width + gap), cv::Vec3b(250, 249, 247));
+    cv::Mat3b page(title_height + rows * row_height + gap, gap + columns * (width + gap),
+                   cv::Vec3b(250, 249, 247));
     draw_label(page, title, {gap, title_height - 16}, 14, ink);
-    for (std::size_t i = 0; i < cells.size(); ++i)
-    {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
         const int x = gap + int(i) % columns * (width + gap);
         const int y = title_height + int(i) / columns * row_height;
         paste(page, fitted(cells[i].face, width), {x, y});

@@ -16,6 +16,7 @@ struct SheetCell
 cv::Mat3b contact_sheet(const std::string& title, const std::vector<SheetCell>& cells, int columns);
 
 /// Anti-aliased text, left edge and base line at `origin`.
-void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point origin, double height_px, cv::Scalar color);
+void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point origin, double height_px,
+                cv::Scalar color);
 
 } // namespace app

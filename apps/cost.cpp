@@ -27,7 +27,9 @@ std::vector<Variant> variants(const passes::Shading& everything)
     opaque.translucency = false;
     plain.translucency = plain.normal_map = plain.shadow = false;
     plain.ambient = glm::vec3(0);
-    return {{"everything", everything, {}, {}}, {"without_translucency", opaque, {}, {}}, {"ward_lambert_only", plain, {}, {}}};
+    return {{"everything", everything, {}, {}},
+            {"without_translucency", opaque, {}, {}},
+            {"ward_lambert_only", plain, {}, {}}};
 }
 
 } // namespace
@@ -39,13 +41,14 @@ json measure_cost(engine::Executor& executor, const Stage& stage, std::vector<st
     std::vector<double> moving_ms;
     const auto draw = [&](double day, const passes::Shading& shading) {
         engine::Graph graph;
-        graph.readback("picture", stage.declare(graph, stage.wounds_on(day), stage.camera(), shading, stage.scene().size).picture);
+        graph.readback(
+            "picture",
+            stage.declare(graph, stage.wounds_on(day), stage.camera(), shading, stage.scene().size).picture);
         return executor.run(graph);
     };
     for (int round = -1; round < rounds; ++round) // the first compiles pipelines and is not counted
     {
-        for (Variant& variant : all)
-        {
+        for (Variant& variant : all) {
             draw(first, variant.shading); // leaves only the forward pass to run
             const engine::FrameResult frame = draw(first, variant.shading);
             if (round < 0)
@@ -59,15 +62,19 @@ json measure_cost(engine::Executor& executor, const Stage& stage, std::vector<st
 
     json result{{"rounds", rounds}, {"variants", json::object()}};
     for (const Variant& variant : all)
-        result["variants"][variant.name] = {{"forward_ms", median(variant.forward_ms)}, {"frame_ms", median(variant.frame_ms)}};
+        result["variants"][variant.name] = {{"forward_ms", median(variant.forward_ms)},
+                                            {"frame_ms", median(variant.frame_ms)}};
     const double full = median(all[0].forward_ms), still = median(all[0].frame_ms);
     result["translucency_over_none"] = full / median(all[1].forward_ms);
     result["everything_over_ward_lambert"] = full / median(all[2].forward_ms);
     result["unchanged_frame_ms"] = still;
     result["moving_day_over_unchanged"] = median(moving_ms) / still;
-    lines.push_back(fmt::format("forward pass, median of {} frames: everything {:.1f} ms; {:.2f} x without translucency; {:.2f} x Ward and Lambert only",
-                                rounds, full, full / median(all[1].forward_ms), full / median(all[2].forward_ms)));
-    lines.push_back(fmt::format("unchanged frame {:.1f} ms; a frame on which the day moved {:.2f} x that", still, median(moving_ms) / still));
+    lines.push_back(fmt::format("forward pass, median of {} frames: everything {:.1f} ms; {:.2f} x without "
+                                "translucency; {:.2f} x Ward and Lambert only",
+                                rounds, full, full / median(all[1].forward_ms),
+                                full / median(all[2].forward_ms)));
+    lines.push_back(fmt::format("unchanged frame {:.1f} ms; a frame on which the day moved {:.2f} x that",
+                                still, median(moving_ms) / still));
     return result;
 }
 

@@ -9,7 +9,9 @@
 
 namespace app {
 
-/// Draws the variants in turn, `rounds` times after a warm-up, and compares medians. `lines` receives what a person reads.
-nlohmann::json measure_cost(engine::Executor& executor, const Stage& stage, std::vector<std::string>& lines, int rounds = 9);
+/// Draws the variants in turn, `rounds` times after a warm-up, and compares medians. `lines` receives what a
+/// person reads.
+nlohmann::json measure_cost(engine::Executor& executor, const Stage& stage, std::vector<std::string>& lines,
+                            int rounds = 9);
 
 } // namespace app

@@ -13,13 +13,12 @@ json read_json(const std::filesystem::path& path)
 {
     constexpr std::size_t largest = 64u << 20;
     const std::vector<std::uint8_t> bytes = engine::read_file(path, largest);
-    try
-    {
+    try {
         return json::parse(bytes);
-    }
-    catch (const json::exception& error) // of syntax, or of a number too large for a double
+    } catch (const json::exception& error) // of syntax, or of a number too large for a double
     {
-        std::string message = error.what(); // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
+        std::string message =
+            error.what(); // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
         if (const auto bracket = message.find("] "); bracket != std::string::npos)
             message.erase(0, bracket + 2);
         for (char& c : message)
@@ -34,7 +33,10 @@ Fields::Fields(const json& object, std::string where) : object_(object), where_(
         throw cicatrix::InputError(where_, "must be an object", "write { \"field\": value, ... }");
 }
 
-bool Fields::has(const std::string& name) const { return object_.contains(name); }
+bool Fields::has(const std::string& name) const
+{
+    return object_.contains(name);
+}
 
 const json* Fields::get(const std::string& name)
 {
@@ -59,7 +61,8 @@ double Fields::number(const std::string& name, double fallback, double low, doub
     return number;
 }
 
-std::int64_t Fields::integer(const std::string& name, std::int64_t fallback, std::int64_t low, std::int64_t high)
+std::int64_t Fields::integer(const std::string& name, std::int64_t fallback, std::int64_t low,
+                             std::int64_t high)
 {
     const json* value = get(name);
     if (value == nullptr)
@@ -99,13 +102,15 @@ std::string Fields::choice(const std::string& name, const std::string& fallback,
     fail(name, "is \"" + value + "\"", fmt::format("choose one of {}", fmt::join(allowed, ", ")));
 }
 
-void Fields::check_numbers(const std::string& name, const json& value, std::size_t count, double low, double high) const
+void Fields::check_numbers(const std::string& name, const json& value, std::size_t count, double low,
+                           double high) const
 {
     const std::string cure = fmt::format("give an array of {} numbers from {:g} to {:g}", count, low, high);
     if (!value.is_array() || value.size() != count)
         fail(name, "is " + value.dump(), cure);
     for (const json& element : value)
-        if (const double number = element.is_number() ? element.get<double>() : NAN; !(number >= low && number <= high))
+        if (const double number = element.is_number() ? element.get<double>() : NAN;
+            !(number >= low && number <= high))
             fail(name, "holds " + element.dump(), cure);
 }
 

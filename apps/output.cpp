@@ -23,7 +23,8 @@ void write_json(const std::filesystem::path& path, const nlohmann::json& json)
         std::ofstream file(temporary);
         file << json.dump(2) << '\n';
         if (!file.flush())
-            throw cicatrix::InputError(path.string(), "could not be written", "see that the disk is not full");
+            throw cicatrix::InputError(path.string(), "could not be written",
+                                       "see that the disk is not full");
     });
 }
 

@@ -18,7 +18,8 @@ namespace {
 
 std::filesystem::path beside(const std::filesystem::path& scene, const std::string& file)
 {
-    return file.empty() ? std::filesystem::path{} : scene.parent_path() / file; // an absolute `file` stays as it is
+    return file.empty() ? std::filesystem::path{}
+                        : scene.parent_path() / file; // an absolute `file` stays as it is
 }
 
 passes::Place read_place(Fields& fields)
@@ -28,17 +29,16 @@ passes::Place read_place(Fields& fields)
         return WoundScene{}.place;
     if (value->is_string())
         return value->get<std::string>();
-    if (value->is_array() && value->size() == 2)
-    {
+    if (value->is_array() && value->size() == 2) {
         const auto at = fields.numbers<2>("at", {}, -3, 3);
         return passes::FacePoint{at[0], at[1]};
     }
-    if (value->is_array() && value->size() == 3)
-    {
+    if (value->is_array() && value->size() == 3) {
         const auto at = fields.numbers<3>("at", {}, -10, 10);
         return glm::dvec3(at[0], at[1], at[2]);
     }
-    fields.fail("at", "is " + value->dump(), "give a named place, face coordinates [x, y] or a point [x, y, z] in metres");
+    fields.fail("at", "is " + value->dump(),
+                "give a named place, face coordinates [x, y] or a point [x, y, z] in metres");
 }
 
 Direction read_direction(Fields& fields, const Direction& fallback)
@@ -51,12 +51,16 @@ wound::Healing read_healing(const json& object, const std::string& where, const 
 {
     Fields fields(object, where);
     wound::Healing healing;
-    const std::string model = fields.choice("model", healing.model == wound::HealingModel::face ? "face" : "contraction", {"contraction", "face"});
+    const std::string model =
+        fields.choice("model", healing.model == wound::HealingModel::face ? "face" : "contraction",
+                      {"contraction", "face"});
     healing.model = model == "face" ? wound::HealingModel::face : wound::HealingModel::contraction;
-    if (const std::string areas = fields.text("areas", ""); !areas.empty())
-    {
+    if (const std::string areas = fields.text("areas", ""); !areas.empty()) {
         const std::filesystem::path table = beside(scene, areas);
-        healing.curve = wound::fit_table(wound::read_area_table(table), table.string()).back().best().curve; // the mean of several
+        healing.curve = wound::fit_table(wound::read_area_table(table), table.string())
+                            .back()
+                            .best()
+                            .curve; // the mean of several
     }
     healing.curve.gamma = fields.number("gamma", healing.curve.gamma, 0.5, 4);
     healing.curve.delta = fields.number("delta", healing.curve.delta, 0, 10);
@@ -113,8 +117,11 @@ CameraScene read_camera(const json& object, const std::string& where)
 
 wound::Rung read_rung(Fields& fields, wound::Rung fallback)
 {
-    const std::string chosen = fields.choice("reflectance_model", std::string(name(fallback)), {"published", "clamped", "exponential", "two-stream-paper", "two-stream", "calibrated"});
-    for (const wound::Rung rung : {wound::Rung::Published, wound::Rung::Clamped, wound::Rung::Exponential, wound::Rung::TwoStreamPaper, wound::Rung::TwoStream})
+    const std::string chosen = fields.choice(
+        "reflectance_model", std::string(name(fallback)),
+        {"published", "clamped", "exponential", "two-stream-paper", "two-stream", "calibrated"});
+    for (const wound::Rung rung : {wound::Rung::Published, wound::Rung::Clamped, wound::Rung::Exponential,
+                                   wound::Rung::TwoStreamPaper, wound::Rung::TwoStream})
         if (name(rung) == chosen)
             return rung;
     return wound::Rung::Calibrated;
@@ -128,8 +135,8 @@ Enum read_enum(Fields& fields, const std::string& name, Enum fallback, const std
     return Enum(std::ranges::find(names, chosen) - names.begin());
 }
 
-const std::vector<std::string> ward_names{"published", "duer", "bounded"}, translucency_names{"published", "bounded"},
-    blend_names{"published", "corrected"};
+const std::vector<std::string> ward_names{"published", "duer", "bounded"},
+    translucency_names{"published", "bounded"}, blend_names{"published", "corrected"};
 
 passes::Shading read_shading(const json& object, const std::string& where, passes::Shading shading)
 {
@@ -151,7 +158,8 @@ passes::Shading read_shading(const json& object, const std::string& where, passe
     model.gamma = fields.number("gamma", model.gamma, 0, 100);
     model.alpha_x = fields.number("alpha_x", model.alpha_x, 1e-4, 1.5);
     model.alpha_y = fields.number("alpha_y", model.alpha_y, 1e-4, 1.5);
-    const auto ambient = fields.numbers<3>("ambient", {shading.ambient.x, shading.ambient.y, shading.ambient.z}, 0, 1000);
+    const auto ambient =
+        fields.numbers<3>("ambient", {shading.ambient.x, shading.ambient.y, shading.ambient.z}, 0, 1000);
     shading.ambient = glm::vec3(ambient[0], ambient[1], ambient[2]);
     fields.finish();
     return shading;
@@ -194,15 +202,15 @@ json to_json(const Scene& scene)
     const passes::Shading& shading = scene.shading;
     const wound::Shading& model = shading.model;
     json wounds = json::array(), lights = json::array();
-    for (const WoundScene& wound : scene.wounds)
-    {
+    for (const WoundScene& wound : scene.wounds) {
         json at;
         if (const auto* place = std::get_if<std::string>(&wound.place))
             at = *place;
         else if (const auto* face = std::get_if<passes::FacePoint>(&wound.place))
             at = {face->x, face->y};
         else
-            at = {std::get<glm::dvec3>(wound.place).x, std::get<glm::dvec3>(wound.place).y, std::get<glm::dvec3>(wound.place).z};
+            at = {std::get<glm::dvec3>(wound.place).x, std::get<glm::dvec3>(wound.place).y,
+                  std::get<glm::dvec3>(wound.place).z};
         const wound::Healing& healing = wound.healing;
         wounds.push_back({{"photo", wound.photo.string()},
                           {"mask", wound.mask.string()},
@@ -268,10 +276,10 @@ Scene read_scene(const std::filesystem::path& path)
     Fields fields(root, file);
     Scene scene;
     scene.head = beside(path, fields.text("head", ""));
-    if (const json* wounds = fields.get("wounds"))
-    {
+    if (const json* wounds = fields.get("wounds")) {
         if (!wounds->is_array() || wounds->size() > std::size_t(shared::MAX_WOUNDS))
-            fields.fail("wounds", "is " + wounds->dump().substr(0, 60), fmt::format("give an array of at most {} wounds", shared::MAX_WOUNDS));
+            fields.fail("wounds", "is " + wounds->dump().substr(0, 60),
+                        fmt::format("give an array of at most {} wounds", shared::MAX_WOUNDS));
         scene.wounds.clear();
         for (std::size_t i = 0; i < wounds->size(); ++i)
             scene.wounds.push_back(read_wound((*wounds)[i], fmt::format("{}/wounds/{}", file, i), path));
@@ -282,10 +290,10 @@ Scene read_scene(const std::filesystem::path& path)
     scene.reflectance_model = read_rung(fields, scene.reflectance_model);
     if (const json* shading = fields.get("shading"))
         scene.shading = read_shading(*shading, file + "/shading", scene.shading);
-    if (const json* lights = fields.get("lights"))
-    {
+    if (const json* lights = fields.get("lights")) {
         if (!lights->is_array() || lights->size() > std::size_t(shared::MAX_LIGHTS))
-            fields.fail("lights", "is " + lights->dump().substr(0, 60), fmt::format("give an array of at most {} lights", shared::MAX_LIGHTS));
+            fields.fail("lights", "is " + lights->dump().substr(0, 60),
+                        fmt::format("give an array of at most {} lights", shared::MAX_LIGHTS));
         scene.lights.clear();
         for (std::size_t i = 0; i < lights->size(); ++i)
             scene.lights.push_back(read_light((*lights)[i], fmt::format("{}/lights/{}", file, i)));
@@ -307,19 +315,21 @@ std::vector<double> parse_days(const std::string& text, const std::string& where
     const std::string cure = "write \"first:last:step\" or days separated by commas, from 0 to 3650";
     const char separator = text.find(':') != std::string::npos ? ':' : ',';
     std::vector<double> numbers;
-    for (std::size_t begin = 0; begin <= text.size();)
-    {
+    for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = std::min(text.find(separator, begin), text.size());
         double number = 0;
         const auto [stop, error] = std::from_chars(text.data() + begin, text.data() + end, number);
         if (error != std::errc{} || stop != text.data() + end || !(number >= 0 && number <= 3650))
-            throw cicatrix::InputError(where, "\"" + text + "\" holds no valid day at \"" + text.substr(begin, end - begin) + "\"", cure);
+            throw cicatrix::InputError(
+                where, "\"" + text + "\" holds no valid day at \"" + text.substr(begin, end - begin) + "\"",
+                cure);
         numbers.push_back(number);
         begin = end + 1;
     }
     if (separator == ',')
         return numbers;
-    if (numbers.size() != 3 || numbers[1] < numbers[0] || numbers[2] <= 0 || (numbers[1] - numbers[0]) / numbers[2] > 10000)
+    if (numbers.size() != 3 || numbers[1] < numbers[0] || numbers[2] <= 0 ||
+        (numbers[1] - numbers[0]) / numbers[2] > 10000)
         throw cicatrix::InputError(where, "\"" + text + "\" is no range of days", cure);
     std::vector<double> days;
     for (int i = 0; numbers[0] + i * numbers[2] <= numbers[1] + 1e-9 * numbers[2]; ++i)
@@ -334,8 +344,10 @@ std::array<std::uint32_t, 2> parse_size(const std::string& text, const std::stri
     const auto width = std::from_chars(text.data(), end, size[0]);
     const bool cross = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
     const auto height = cross ? std::from_chars(width.ptr + 1, end, size[1]) : width;
-    if (!cross || height.ec != std::errc{} || height.ptr != end || std::ranges::any_of(size, [](auto s) { return s < 16 || s > 16384; }))
-        throw cicatrix::InputError(where, "\"" + text + "\" is no picture size", "write WIDTHxHEIGHT, each from 16 to 16384, as in 1280x720");
+    if (!cross || height.ec != std::errc{} || height.ptr != end ||
+        std::ranges::any_of(size, [](auto s) { return s < 16 || s > 16384; }))
+        throw cicatrix::InputError(where, "\"" + text + "\" is no picture size",
+                                   "write WIDTHxHEIGHT, each from 16 to 16384, as in 1280x720");
     return size;
 }
 

@@ -1,4 +1,5 @@
-// The scene file: what is shown, from where, in which light, on which days. docs/scene.md documents every field.
+// The scene file: what is shown, from where, in which light, on which days. docs/scene.md documents every
+// field.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -27,7 +28,8 @@ struct WoundScene
     wound::Healing healing;
 };
 
-/// A place around the face's middle: 0, 0 is in front; positive azimuth towards the viewer's right, positive elevation above.
+/// A place around the face's middle: 0, 0 is in front; positive azimuth towards the viewer's right, positive
+/// elevation above.
 struct Direction
 {
     double azimuth_deg = 0, elevation_deg = 0;
@@ -38,7 +40,7 @@ struct LightScene
     Direction from;
     double distance_m = 0.25; // from the face's middle; directional lights have none
     bool directional = false;
-    bool falloff = true; // inverse square; eq. (8) has none
+    bool falloff = true;                  // inverse square; eq. (8) has none
     std::array<double, 3> color{1, 1, 1}; // linear
     double intensity = 1;                 // irradiance / pi at the face's middle
 };
@@ -70,12 +72,14 @@ struct Scene
     std::vector<double> days{0, 3, 6, 9, 12, 15, 18, 21, 24, 27, 30};
 };
 
-/// Reads a scene; files inside are relative to the scene's folder. Throws cicatrix::InputError naming file and field.
+/// Reads a scene; files inside are relative to the scene's folder. Throws cicatrix::InputError naming file
+/// and field.
 Scene read_scene(const std::filesystem::path& path);
 /// The scene as JSON, all fields spelled out, as capture.json records it; read_scene reads it back.
 nlohmann::json to_json(const Scene& scene);
 
-/// "0:30:3" (first:last:step) or "0,5,12"; 0 to 3650, at most 10000 days. Throws cicatrix::InputError naming `where`.
+/// "0:30:3" (first:last:step) or "0,5,12"; 0 to 3650, at most 10000 days. Throws cicatrix::InputError naming
+/// `where`.
 std::vector<double> parse_days(const std::string& text, const std::string& where);
 /// "1280x720", 16 to 16384 a side. Throws cicatrix::InputError naming `where`.
 std::array<std::uint32_t, 2> parse_size(const std::string& text, const std::string& where);

@@ -1,4 +1,5 @@
-// The command-line options that every command on a scene shares: the scene file and what overrides its fields.
+// The command-line options that every command on a scene shares: the scene file and what overrides its
+// fields.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>
@@ -20,7 +21,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options);
 Scene chosen_scene(const SceneOptions& options);
 engine::DeviceOptions device_options(const SceneOptions& options);
 
-/// Everything as the paper prints it: equations, contraction alone, one light without falloff, no shadow, no ambient light.
+/// Everything as the paper prints it: equations, contraction alone, one light without falloff, no shadow, no
+/// ambient light.
 void make_published(Scene& scene);
 
 } // namespace app

@@ -1,5 +1,5 @@
-// A scene made ready to draw: files read, wounds prepared and placed, everything uploaded once. From then on a frame is a
-// declaration and a run.
+// A scene made ready to draw: files read, wounds prepared and placed, everything uploaded once. From then on
+// a frame is a declaration and a run.
 #pragma once
 #include <future>
 #include <memory>
@@ -17,8 +17,9 @@ namespace app {
 class Stage
 {
   public:
-    /// What a scene needs of the CPU: the head and the wounds, read and prepared. Needs no device, so that it can be made while
-    /// one is opened. Lines for the user ("no normals: computed") are collected in `notes`. Throws cicatrix::InputError.
+    /// What a scene needs of the CPU: the head and the wounds, read and prepared. Needs no device, so that it
+    /// can be made while one is opened. Lines for the user ("no normals: computed") are collected in `notes`.
+    /// Throws cicatrix::InputError.
     struct Props
     {
         std::shared_ptr<const engine::Model> head;
@@ -45,8 +46,9 @@ class Stage
     passes::Camera close_up(std::size_t wound) const;
 
     /// Declares the frame of one day. `size` is the picture's.
-    passes::FrameImages declare(engine::Graph& graph, const std::vector<wound::WoundDay>& today, const passes::Camera& camera,
-                                const passes::Shading& shading, std::array<std::uint32_t, 2> size) const;
+    passes::FrameImages declare(engine::Graph& graph, const std::vector<wound::WoundDay>& today,
+                                const passes::Camera& camera, const passes::Shading& shading,
+                                std::array<std::uint32_t, 2> size) const;
 
   private:
     Scene scene_;

@@ -13,7 +13,8 @@
 namespace app {
 namespace {
 
-// ---- fit --------------------------------------------------------------------------------------------------------
+// ---- fit
+// --------------------------------------------------------------------------------------------------------
 
 struct FitCommand
 {
@@ -24,28 +25,35 @@ struct FitCommand
 
 void print_fit(const wound::SeriesFit& fit)
 {
-    fmt::print("{} ({} days)\n  {:<12} {:>10} {:>8} {:>8} {:>8} {:>9}\n", fit.series.name, fit.series.days.size(), "model", "delta", "gamma", "theta", "rmse", "aic");
+    fmt::print("{} ({} days)\n  {:<12} {:>10} {:>8} {:>8} {:>8} {:>9}\n", fit.series.name,
+               fit.series.days.size(), "model", "delta", "gamma", "theta", "rmse", "aic");
     for (const wound::CurveFit& model : fit.models)
-        fmt::print("{} {:<12} {:>10.5g} {:>8.4g} {:>8.4g} {:>8.4f} {:>9.2f}\n", &model == &fit.best() ? "*" : " ", wound::name_of(model.model),
-                   model.curve.delta, model.curve.gamma, model.curve.theta, model.rmse, model.aic);
+        fmt::print("{} {:<12} {:>10.5g} {:>8.4g} {:>8.4g} {:>8.4f} {:>9.2f}\n",
+                   &model == &fit.best() ? "*" : " ", wound::name_of(model.model), model.curve.delta,
+                   model.curve.gamma, model.curve.theta, model.rmse, model.aic);
     const wound::H3& curve = fit.best().curve;
-    fmt::print("  half closed after {:.2f} days, 90 % after {:.2f}, 99 % after {:.2f}; largest ratio {:.3f}\n", wound::half_time(curve),
-               wound::day_below(curve, .1), wound::closure_day(curve), wound::largest_ratio(curve).ratio);
+    fmt::print(
+        "  half closed after {:.2f} days, 90 % after {:.2f}, 99 % after {:.2f}; largest ratio {:.3f}\n",
+        wound::half_time(curve), wound::day_below(curve, .1), wound::closure_day(curve),
+        wound::largest_ratio(curve).ratio);
 }
 
 void fit(const FitCommand& command)
 {
     make_folder(command.out);
     const std::vector<wound::SeriesFit> fits =
-        wound::fit_table(wound::read_area_table(std::filesystem::path(command.table)), command.table, {.robust = command.robust});
+        wound::fit_table(wound::read_area_table(std::filesystem::path(command.table)), command.table,
+                         {.robust = command.robust});
     for (const wound::SeriesFit& one : fits)
         print_fit(one);
     engine::write_png(command.out / "fit.png", wound::draw_fit(fits.back())); // the mean, or the only series
     write_json(command.out / "fit.json", wound::fit_to_json(fits));
-    fmt::print("* preferred by AIC; fit.json and fit.png ({}) in {}\n", fits.back().series.name, command.out.string());
+    fmt::print("* preferred by AIC; fit.json and fit.png ({}) in {}\n", fits.back().series.name,
+               command.out.string());
 }
 
-// ---- wound ------------------------------------------------------------------------------------------------------
+// ---- wound
+// ------------------------------------------------------------------------------------------------------
 
 struct WoundCommand
 {
@@ -76,10 +84,12 @@ void show_wound(const WoundCommand& command)
     for (std::size_t i = 0; i < all.size(); ++i) // the largest first; only the others carry a number
     {
         const std::string suffix = i == 0 ? "" : fmt::format("_{}", i + 1);
-        engine::write_png(command.out / ("wound" + suffix + ".png"), draw_wound_page(photograph, all[i], healing));
+        engine::write_png(command.out / ("wound" + suffix + ".png"),
+                          draw_wound_page(photograph, all[i], healing));
         engine::write_png(command.out / ("mask" + suffix + ".png"), all[i].photo_mask);
         write_json(command.out / ("wound" + suffix + ".json"), wound_to_json(all[i], healing));
-        fmt::print("wound{0}.png, mask{0}.png, wound{0}.json in {1}: {2} control points\n", suffix, command.out.string(), all[i].control_points.size());
+        fmt::print("wound{0}.png, mask{0}.png, wound{0}.json in {1}: {2} control points\n", suffix,
+                   command.out.string(), all[i].control_points.size());
     }
 }
 
@@ -89,27 +99,54 @@ void add_fit_command(CLI::App& program)
 {
     auto options = std::make_shared<FitCommand>();
     CLI::App* command = program.add_subcommand("fit", "Fit healing curves to measured wound areas");
-    command->add_option("areas", options->table, "Table with columns day and area or ratio; optionally wound, weight, edge")->required()->type_name("AREAS.csv");
-    command->add_option("--out", options->out, "Folder for fit.json and fit.png")->capture_default_str()->type_name("DIR");
-    command->add_flag("--robust", options->robust, "One bad measurement does not pull the curve (Huber's loss)");
-    command->footer("Example: cicatrix fit areas.csv --out fit\nPut the table into a scene: \"healing\": {\"areas\": \"areas.csv\"}");
+    command
+        ->add_option("areas", options->table,
+                     "Table with columns day and area or ratio; optionally wound, weight, edge")
+        ->required()
+        ->type_name("AREAS.csv");
+    command->add_option("--out", options->out, "Folder for fit.json and fit.png")
+        ->capture_default_str()
+        ->type_name("DIR");
+    command->add_flag("--robust", options->robust,
+                      "One bad measurement does not pull the curve (Huber's loss)");
+    command->footer("Example: cicatrix fit areas.csv --out fit\nPut the table into a scene: \"healing\": "
+                    "{\"areas\": \"areas.csv\"}");
     command->callback([options] { fit(*options); });
 }
 
 void add_wound_command(CLI::App& program)
 {
     auto options = std::make_shared<WoundCommand>();
-    CLI::App* command = program.add_subcommand("wound", "Show what is made of a photograph: mask, control points, warp, depth");
-    command->add_option("photo", options->photo, "Photograph of a wound, PNG or JPEG")->required()->type_name("PHOTO");
-    command->add_option("--mask", options->mask, "White where the wound is; without one it is segmented")->type_name("PICTURE");
-    command->add_option("--seed", options->seed, "A pixel inside the wound")->delimiter(',')->expected(2)->type_name("X,Y");
-    command->add_option("--rect", options->rect, "A rectangle around the wound, in pixels")->delimiter(',')->expected(4)->type_name("X,Y,W,H");
-    command->add_option("--width-mm", options->width_mm, "The wound's longer side on the skin, mm")->capture_default_str()->check(CLI::Range(0.5, 200.0));
-    command->add_option("--spacing", options->spacing, "Of the lines that give control points, as a share of the patch; 0: from the border's curvature")
+    CLI::App* command = program.add_subcommand(
+        "wound", "Show what is made of a photograph: mask, control points, warp, depth");
+    command->add_option("photo", options->photo, "Photograph of a wound, PNG or JPEG")
+        ->required()
+        ->type_name("PHOTO");
+    command->add_option("--mask", options->mask, "White where the wound is; without one it is segmented")
+        ->type_name("PICTURE");
+    command->add_option("--seed", options->seed, "A pixel inside the wound")
+        ->delimiter(',')
+        ->expected(2)
+        ->type_name("X,Y");
+    command->add_option("--rect", options->rect, "A rectangle around the wound, in pixels")
+        ->delimiter(',')
+        ->expected(4)
+        ->type_name("X,Y,W,H");
+    command->add_option("--width-mm", options->width_mm, "The wound's longer side on the skin, mm")
+        ->capture_default_str()
+        ->check(CLI::Range(0.5, 200.0));
+    command
+        ->add_option(
+            "--spacing", options->spacing,
+            "Of the lines that give control points, as a share of the patch; 0: from the border's curvature")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 0.5));
-    command->add_option("--model", options->model, "How it closes")->capture_default_str()->check(CLI::IsMember({"face", "contraction"}));
-    command->add_option("--out", options->out, "Folder for wound.png, mask.png and wound.json")->capture_default_str()->type_name("DIR");
+    command->add_option("--model", options->model, "How it closes")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"face", "contraction"}));
+    command->add_option("--out", options->out, "Folder for wound.png, mask.png and wound.json")
+        ->capture_default_str()
+        ->type_name("DIR");
     command->footer("Example: cicatrix wound photo.jpg --rect 120,80,300,260 --out wound");
     command->callback([options] { show_wound(*options); });
 }

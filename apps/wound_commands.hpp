@@ -1,4 +1,5 @@
-// `cicatrix fit` and `cicatrix wound`: the science without a picture of a face; neither needs a Vulkan device.
+// `cicatrix fit` and `cicatrix wound`: the science without a picture of a face; neither needs a Vulkan
+// device.
 #pragma once
 #include <CLI/CLI.hpp>
 

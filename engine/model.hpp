@@ -18,7 +18,12 @@ struct Vertex
     glm::vec2 uv;       // v down
 };
 
-enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
+enum class AlphaMode : std::uint8_t
+{
+    Opaque,
+    Mask,
+    Blend
+};
 
 struct Material
 {
@@ -47,21 +52,24 @@ struct Model
     std::vector<Primitive> primitives;
     std::vector<Material> materials; // at least one
     glm::vec3 min{0.0f}, max{0.0f};  // bounds of the vertices
-    std::vector<std::string> notes;  // what was missing and made up ("no normals: computed"), for the user to read
+    std::vector<std::string>
+        notes; // what was missing and made up ("no normals: computed"), for the user to read
 };
 
-/// Throws cicatrix::InputError naming the file, the field and the cure. Node transforms are applied; normals and tangents are
-/// computed where missing; zero-area triangles are dropped; NaN, out-of-range indices and absurd sizes are refused.
+/// Throws cicatrix::InputError naming the file, the field and the cure. Node transforms are applied; normals
+/// and tangents are computed where missing; zero-area triangles are dropped; NaN, out-of-range indices and
+/// absurd sizes are refused.
 Model load_model(const std::filesystem::path& path);
 
 /// Sets min and max from the vertices, of which there must be one.
 void update_bounds(Model& model);
 
-/// Makes the model a head in metres: scales one whose height is outside 0.1..1 m to 0.25 m and says so in `notes`.
+/// Makes the model a head in metres: scales one whose height is outside 0.1..1 m to 0.25 m and says so in
+/// `notes`.
 void normalise_size(Model& model);
 
-/// Writes a binary glTF 2.0 file that load_model reads back; PNG pictures inside, opaque colours of more than a megapixel as
-/// JPEG. Atomic (temporary name, then rename).
+/// Writes a binary glTF 2.0 file that load_model reads back; PNG pictures inside, opaque colours of more than
+/// a megapixel as JPEG. Atomic (temporary name, then rename).
 void save_model(const std::filesystem::path& path, const Model& model);
 
 } // namespace engine

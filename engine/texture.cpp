@@ -64,8 +64,8 @@ cv::Mat to_linear_float(const cv::Mat& picture, Encoding encoding)
     return linear;
 }
 
-/// The first halving of an 8-bit picture of even size, straight from its bytes: a large picture as floats takes longer to write than
-/// all the levels below it.
+/// The first halving of an 8-bit picture of even size, straight from its bytes: a large picture as floats
+/// takes longer to write than all the levels below it.
 cv::Mat half_from_bytes(const cv::Mat& picture, Encoding encoding)
 {
     const int channels = picture.channels();

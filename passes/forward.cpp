@@ -12,7 +12,10 @@
 namespace passes {
 namespace {
 
-shared::vec3 to_vec3(const glm::dvec3& v) { return shared::vec3(v); }
+shared::vec3 to_vec3(const glm::dvec3& v)
+{
+    return shared::vec3(v);
+}
 
 struct WoundUniform
 {
@@ -22,13 +25,20 @@ struct WoundUniform
 WoundUniform wound_frames(std::span<const PlacedWound> wounds)
 {
     WoundUniform uniform{};
-    for (std::size_t i = 0; i < wounds.size(); ++i)
-    {
+    for (std::size_t i = 0; i < wounds.size(); ++i) {
         const Anchor& anchor = wounds[i].anchor;
         const cv::Vec3f blood = wound::blood_absorbance;
-        uniform.frames[i] = {to_vec3(anchor.centre), float(anchor.half_width_m), to_vec3(anchor.right), float(Anchor::reach),
-                             to_vec3(anchor.down),   float(wounds[i].day),       to_vec3(anchor.normal), wounds[i].axes,
-                             glm::exp(-1.4f * float(wounds[i].pink) * shared::vec3(blood[0], blood[1], blood[2])), wounds[i].epithelium ? 1.0f : 0.0f};
+        uniform.frames[i] = {
+            to_vec3(anchor.centre),
+            float(anchor.half_width_m),
+            to_vec3(anchor.right),
+            float(Anchor::reach),
+            to_vec3(anchor.down),
+            float(wounds[i].day),
+            to_vec3(anchor.normal),
+            wounds[i].axes,
+            glm::exp(-1.4f * float(wounds[i].pink) * shared::vec3(blood[0], blood[1], blood[2])),
+            wounds[i].epithelium ? 1.0f : 0.0f};
     }
     return uniform;
 }
@@ -36,16 +46,18 @@ WoundUniform wound_frames(std::span<const PlacedWound> wounds)
 shared::Part part_params(const HeadPart& part)
 {
     shared::Part params{part.albedo_factor, part.normal_scale, 1, 1, 1};
-    switch (part.surface)
-    {
-    case Surface::Skin: break;
+    switch (part.surface) {
+    case Surface::Skin:
+        break;
     case Surface::Eye: // a wet, smooth ball: the highlight's energy in a lobe a fifth as wide
         params.slope = 0.2f;
         params.specular = 0.5f;
         params.translucency = 0.5f;
         break;
     case Surface::Hair:
-    case Surface::Other: params.specular = 0; break;
+    case Surface::Other:
+        params.specular = 0;
+        break;
     }
     return params;
 }
@@ -54,8 +66,7 @@ shared::Part part_params(const HeadPart& part)
 void give_wounds(engine::Draw& draw, const ForwardInput& input, bool wounded, engine::ImageId blank)
 {
     std::vector<engine::ImageId> color(shared::MAX_WOUNDS, blank), state = color, relief = color, lut = color;
-    for (std::size_t i = 0; wounded && i < input.wounds.size(); ++i)
-    {
+    for (std::size_t i = 0; wounded && i < input.wounds.size(); ++i) {
         color[i] = input.wounds[i].texture.color;
         state[i] = input.wounds[i].texture.state;
         relief[i] = input.wounds[i].texture.relief;
@@ -79,19 +90,21 @@ shared::View make_view(const Camera& camera, const Head& head, double aspect)
     glm::dmat4 projection = glm::perspective(glm::radians(camera.fov_deg), aspect, near, far);
     projection[1][1] *= -1; // Vulkan's y points down
     const glm::dvec3 sight = camera.target - camera.eye;
-    const glm::dvec3 up = std::abs(sight.y) > 0.999 * glm::length(sight) ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 up =
+        std::abs(sight.y) > 0.999 * glm::length(sight) ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
     return {shared::mat4(projection * glm::lookAt(camera.eye, camera.target, up)), to_vec3(camera.eye)};
 }
 
-engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, const shared::View& view, const Shading& shading,
-                            const engine::ImageDesc& target)
+engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, const shared::View& view,
+                            const Shading& shading, const engine::ImageDesc& target)
 {
     assert(input.wounds.size() <= shared::MAX_WOUNDS);
     const engine::ImageDesc single{target.width, target.height, VK_FORMAT_R16G16B16A16_SFLOAT, 1};
     const engine::ImageId radiance = graph.image("radiance", single);
     engine::RasterPass& pass = graph.raster("forward");
     if (target.samples > 1)
-        pass.color(graph.image("radiance_msaa", {target.width, target.height, single.format, target.samples}), {0, 0, 0, 0}, radiance);
+        pass.color(graph.image("radiance_msaa", {target.width, target.height, single.format, target.samples}),
+                   {0, 0, 0, 0}, radiance);
     else
         pass.color(radiance, {0, 0, 0, 0});
     pass.depth(graph.image("depth", {target.width, target.height, VK_FORMAT_D32_SFLOAT, target.samples}));
@@ -115,8 +128,7 @@ engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, con
     const engine::ImageId blank = graph.import("white", *input.head.white);
     pass.sample("shadow_map", input.shadow ? input.shadow_depth : blank, engine::Sampler::NearestClamp);
 
-    for (std::size_t i = 0; i < input.head.parts.size(); ++i)
-    {
+    for (std::size_t i = 0; i < input.head.parts.size(); ++i) {
         const HeadPart& part = input.head.parts[i];
         engine::Draw& draw = pass.draw("forward");
         draw.mesh = input.head.mesh.get();
@@ -126,9 +138,12 @@ engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, con
         draw.blend = part.blend;
         draw.depth_write = !part.blend;
         draw.uniform("Part_", part_params(part));
-        draw.sample("albedo_map", graph.import(fmt::format("albedo {}", i), *part.albedo), engine::Sampler::LinearRepeatMips);
-        draw.sample("normal_map", graph.import(fmt::format("normal {}", i), *part.normal), engine::Sampler::LinearRepeatMips);
-        draw.sample("occlusion_map", graph.import(fmt::format("occlusion {}", i), *part.occlusion), engine::Sampler::LinearRepeatMips);
+        draw.sample("albedo_map", graph.import(fmt::format("albedo {}", i), *part.albedo),
+                    engine::Sampler::LinearRepeatMips);
+        draw.sample("normal_map", graph.import(fmt::format("normal {}", i), *part.normal),
+                    engine::Sampler::LinearRepeatMips);
+        draw.sample("occlusion_map", graph.import(fmt::format("occlusion {}", i), *part.occlusion),
+                    engine::Sampler::LinearRepeatMips);
         give_wounds(draw, input, part.wounded, blank);
     }
     return radiance;

@@ -1,5 +1,6 @@
-// Draws the head: albedo and normal map, wounds projected in object space, the blend of eq. (4) and the shading of eq. (8).
-// Triangles that no wound touches are drawn by a variant that knows no wounds; a term that is off is not compiled in.
+// Draws the head: albedo and normal map, wounds projected in object space, the blend of eq. (4) and the
+// shading of eq. (8). Triangles that no wound touches are drawn by a variant that knows no wounds; a term
+// that is off is not compiled in.
 #pragma once
 #include <glm/glm.hpp>
 #include <optional>
@@ -16,8 +17,8 @@
 
 namespace passes {
 
-/// What the forward pass computes: the coefficients and models of wound::Shading, and which terms are on. Each switch is a
-/// specialisation constant of the shader: off costs nothing.
+/// What the forward pass computes: the coefficients and models of wound::Shading, and which terms are on.
+/// Each switch is a specialisation constant of the shader: off costs nothing.
 struct Shading
 {
     wound::Shading model;
@@ -42,22 +43,22 @@ struct PlacedWound
     ReflectanceLut lut;
     shared::LutAxes axes; // of the lut
     double day = 0;
-    double pink = 0;      // blood over the skin of newly closed wound, units of wound::blood_absorbance
+    double pink = 0;         // blood over the skin of newly closed wound, units of wound::blood_absorbance
     bool epithelium = false; // new epithelium grows between bed and border
 };
 
 struct ForwardInput
 {
     const Head& head;
-    std::span<const PlacedWound> wounds; // at most shared::MAX_WOUNDS
+    std::span<const PlacedWound> wounds;  // at most shared::MAX_WOUNDS
     std::span<const wound::Light> lights; // at most shared::MAX_LIGHTS; the first casts the shadow
     std::optional<shared::Shadow> shadow; // none: no shadow is cast
     engine::ImageId shadow_depth;         // used with `shadow`
 };
 
-/// Adds one raster pass that runs every frame; the result is linear radiance, RGBA16F, alpha 1 on the head and 0 beside it.
-/// `samples` is 1 or 4; with 4 the result is resolved.
-engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, const shared::View& view, const Shading& shading,
-                            const engine::ImageDesc& target);
+/// Adds one raster pass that runs every frame; the result is linear radiance, RGBA16F, alpha 1 on the head
+/// and 0 beside it. `samples` is 1 or 4; with 4 the result is resolved.
+engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, const shared::View& view,
+                            const Shading& shading, const engine::ImageDesc& target);
 
 } // namespace passes

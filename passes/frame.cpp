@@ -11,13 +11,14 @@ FrameImages add_frame(engine::Graph& graph, const FrameInput& input)
 {
     FrameImages images;
     std::vector<PlacedWound> placed;
-    for (std::size_t i = 0; i < input.wounds.size(); ++i)
-    {
+    for (std::size_t i = 0; i < input.wounds.size(); ++i) {
         const SceneWound& wound = input.wounds[i];
         const std::string suffix = i == 0 ? "" : fmt::format(" {}", i + 1);
         const WoundTexture texture = add_wound_texture(graph, suffix, wound.maps, input.today[i]);
-        const ReflectanceLut lut = add_reflectance_lut(graph, "reflectance_lut" + suffix, wound.tissue, input.reflectance);
-        placed.push_back({wound.anchor, texture, lut, wound.tissue.parameters.axes, input.today[i].day, input.today[i].phase.pink, input.today[i].in_phases});
+        const ReflectanceLut lut =
+            add_reflectance_lut(graph, "reflectance_lut" + suffix, wound.tissue, input.reflectance);
+        placed.push_back({wound.anchor, texture, lut, wound.tissue.parameters.axes, input.today[i].day,
+                          input.today[i].phase.pink, input.today[i].in_phases});
         images.wounds.push_back(texture);
     }
     ForwardInput forward{input.head, placed, input.lights, {}, {}};
@@ -25,8 +26,9 @@ FrameImages add_frame(engine::Graph& graph, const FrameInput& input)
         forward.shadow = fit_shadow(input.lights.front(), input.head.min, input.head.max);
     if (forward.shadow)
         forward.shadow_depth = add_shadow(graph, *forward.shadow, *input.head.mesh, input.head.casters);
-    const engine::ImageId radiance = add_forward(graph, forward, make_view(input.camera, input.head, double(input.width) / input.height),
-                                                 input.shading, {input.width, input.height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
+    const engine::ImageId radiance =
+        add_forward(graph, forward, make_view(input.camera, input.head, double(input.width) / input.height),
+                    input.shading, {input.width, input.height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
     images.picture = add_tonemap(graph, radiance, input.exposure, Highlights::SoftShoulder, studio);
     return images;
 }

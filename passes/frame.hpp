@@ -36,7 +36,7 @@ struct FrameInput
 
 struct FrameImages
 {
-    engine::ImageId picture;             // RGBA8, sRGB-encoded
+    engine::ImageId picture; // RGBA8, sRGB-encoded
     std::vector<WoundTexture> wounds;
 };
 

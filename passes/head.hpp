@@ -26,14 +26,15 @@ struct HeadPart
     std::uint32_t first_index = 0, index_count = 0;
     bool blend = false, double_sided = false;
     bool wounded = false; // skin that some wound's patch reaches
-    const engine::Texture *albedo = nullptr, *normal = nullptr, *occlusion = nullptr; // owned by the head, never null
+    const engine::Texture *albedo = nullptr, *normal = nullptr,
+                          *occlusion = nullptr; // owned by the head, never null
     glm::vec4 albedo_factor{1.0f};
     float normal_scale = 1.0f;
 };
 
 struct Head
 {
-    std::vector<HeadPart> parts; // opaque first, then blended
+    std::vector<HeadPart> parts;            // opaque first, then blended
     std::vector<engine::Primitive> casters; // what casts a shadow
     std::unique_ptr<engine::MeshBuffer> mesh;
     std::vector<std::unique_ptr<engine::Texture>> textures;

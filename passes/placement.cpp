@@ -20,7 +20,8 @@ std::array<glm::vec3, 3> corners_of(const engine::Model& head, std::size_t first
 }
 
 /// Moeller & Trumbore 1997; distance along the unit direction, front faces only.
-std::optional<double> hit(const std::array<glm::vec3, 3>& t, const glm::dvec3& origin, const glm::dvec3& direction)
+std::optional<double> hit(const std::array<glm::vec3, 3>& t, const glm::dvec3& origin,
+                          const glm::dvec3& direction)
 {
     const glm::dvec3 a(t[0]), ab = glm::dvec3(t[1]) - a, ac = glm::dvec3(t[2]) - a;
     const glm::dvec3 p = glm::cross(direction, ac);
@@ -58,19 +59,18 @@ glm::dvec3 nearest_vertex(const engine::Model& head, const glm::dvec3& point)
     return best;
 }
 
-/// Mean of the vertex normals within `radius`, weighted by a smooth bump; those that face away from the nearest are left out.
+/// Mean of the vertex normals within `radius`, weighted by a smooth bump; those that face away from the
+/// nearest are left out.
 glm::dvec3 mean_normal(const engine::Model& head, const glm::dvec3& centre, double radius)
 {
     double nearest = std::numeric_limits<double>::max();
     glm::dvec3 direction(0, 0, 1), sum(0.0);
     for (const engine::Vertex& vertex : head.vertices)
-        if (const double distance = glm::distance(glm::dvec3(vertex.position), centre); distance < nearest)
-        {
+        if (const double distance = glm::distance(glm::dvec3(vertex.position), centre); distance < nearest) {
             nearest = distance;
             direction = glm::dvec3(vertex.normal);
         }
-    for (const engine::Vertex& vertex : head.vertices)
-    {
+    for (const engine::Vertex& vertex : head.vertices) {
         const double t = glm::distance(glm::dvec3(vertex.position), centre) / radius;
         if (t < 1 && glm::dot(glm::dvec3(vertex.normal), direction) > 0.3)
             sum += (1 - t * t) * (1 - t * t) * glm::dvec3(vertex.normal);
@@ -89,8 +89,11 @@ cv::Vec3f linear_albedo(const engine::Material& material, const glm::dvec2& uv)
     const glm::vec4 factor = material.base_color_factor;
     if (material.base_color.empty())
         return {factor.x, factor.y, factor.z};
-    const auto wrap = [](double t, int n) { return std::clamp(int(std::floor((t - std::floor(t)) * n)), 0, n - 1); };
-    const cv::Vec4b texel = material.base_color(wrap(uv.y, material.base_color.rows), wrap(uv.x, material.base_color.cols));
+    const auto wrap = [](double t, int n) {
+        return std::clamp(int(std::floor((t - std::floor(t)) * n)), 0, n - 1);
+    };
+    const cv::Vec4b texel =
+        material.base_color(wrap(uv.y, material.base_color.rows), wrap(uv.x, material.base_color.cols));
     const auto linear = [&](int channel) { return wound::srgb_to_linear(texel[channel] / 255.0f); };
     return {linear(0) * factor.x, linear(1) * factor.y, linear(2) * factor.z};
 }
@@ -112,7 +115,11 @@ FaceFrame find_face(const engine::Model& head)
 
 std::vector<NamedPlace> named_places()
 {
-    return {{"cheek", {0.32, -0.06}}, {"eyebrow", {0.21, 0.44}}, {"chin", {0.08, -0.36}}, {"forehead", {0.05, 0.60}}, {"nose", {0.03, 0.10}}};
+    return {{"cheek", {0.32, -0.06}},
+            {"eyebrow", {0.21, 0.44}},
+            {"chin", {0.08, -0.36}},
+            {"forehead", {0.05, 0.60}},
+            {"nose", {0.03, 0.10}}};
 }
 
 std::optional<FacePoint> known_face_point(const Place& place)
@@ -126,32 +133,32 @@ std::optional<FacePoint> known_face_point(const Place& place)
     return std::nullopt;
 }
 
-Anchor anchor_wound(const engine::Model& head, const FaceFrame& face, const Place& place, double patch_width_mm,
-                    double roll_deg, const std::string& where)
+Anchor anchor_wound(const engine::Model& head, const FaceFrame& face, const Place& place,
+                    double patch_width_mm, double roll_deg, const std::string& where)
 {
     Anchor anchor;
     anchor.half_width_m = patch_width_mm * 0.5e-3;
-    if (const auto* point = std::get_if<glm::dvec3>(&place))
-    {
+    if (const auto* point = std::get_if<glm::dvec3>(&place)) {
         anchor.centre = nearest_vertex(head, *point);
         if (const double off = glm::distance(anchor.centre, *point); off > 0.05)
             throw cicatrix::InputError(where, fmt::format("lies {:.0f} mm away from the head", off * 1e3),
                                        "give a point on the head in metres, or face coordinates [x, y]");
-    }
-    else
-    {
+    } else {
         const std::optional<FacePoint> known = known_face_point(place);
         if (!known)
             throw cicatrix::InputError(where, "\"" + std::get<std::string>(place) + "\" is no known place",
                                        "use cheek, eyebrow, chin, forehead, nose, or coordinates");
         const FacePoint at = *known;
-        const auto seen = seen_from_the_front(head, face.nose_tip.x + at.x * face.unit_m, face.nose_tip.y + at.y * face.unit_m);
+        const auto seen = seen_from_the_front(head, face.nose_tip.x + at.x * face.unit_m,
+                                              face.nose_tip.y + at.y * face.unit_m);
         if (!seen)
-            throw cicatrix::InputError(where, fmt::format("face coordinates [{:g}, {:g}] miss the head", at.x, at.y),
+            throw cicatrix::InputError(where,
+                                       fmt::format("face coordinates [{:g}, {:g}] miss the head", at.x, at.y),
                                        "stay within about -0.5 to 0.5 across and -0.7 to 0.9 up");
         anchor.centre = *seen;
     }
-    anchor.face = {(anchor.centre.x - face.nose_tip.x) / face.unit_m, (anchor.centre.y - face.nose_tip.y) / face.unit_m};
+    anchor.face = {(anchor.centre.x - face.nose_tip.x) / face.unit_m,
+                   (anchor.centre.y - face.nose_tip.y) / face.unit_m};
     anchor.normal = mean_normal(head, anchor.centre, std::max(0.7 * anchor.half_width_m, 0.006));
     const glm::dvec3 up = std::abs(anchor.normal.y) > 0.95 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
     const glm::dvec3 level = glm::normalize(glm::cross(up, anchor.normal)); // towards the viewer's right
@@ -165,8 +172,7 @@ Anchor anchor_wound(const engine::Model& head, const FaceFrame& face, const Plac
 bool receives(const Anchor& anchor, const std::array<glm::vec3, 3>& corners)
 {
     glm::dvec3 low(1e30), high(-1e30);
-    for (const glm::vec3& corner : corners)
-    {
+    for (const glm::vec3& corner : corners) {
         const glm::dvec3 q = in_frame(anchor, glm::dvec3(corner));
         low = glm::min(low, q);
         high = glm::max(high, q);
@@ -178,19 +184,18 @@ cv::Mat3f skin_under(const engine::Model& head, std::uint32_t material, const An
 {
     cv::Mat3f skin(size, size, cv::Vec3f::all(std::numeric_limits<float>::quiet_NaN()));
     cv::Mat1d nearest(size, size, -reach);
-    for (const engine::Primitive& primitive : head.primitives)
-    {
+    for (const engine::Primitive& primitive : head.primitives) {
         if (primitive.material != material)
             continue;
-        for (std::size_t i = primitive.first_index; i + 2 < std::size_t(primitive.first_index) + primitive.index_count; i += 3)
+        for (std::size_t i = primitive.first_index;
+             i + 2 < std::size_t(primitive.first_index) + primitive.index_count; i += 3)
         {
             const auto corners = corners_of(head, i);
             if (!receives(anchor, corners))
                 continue;
             std::array<glm::dvec3, 3> q;
             std::array<glm::dvec2, 3> uv;
-            for (int k = 0; k < 3; ++k)
-            {
+            for (int k = 0; k < 3; ++k) {
                 q[k] = in_frame(anchor, glm::dvec3(corners[k]));
                 uv[k] = glm::dvec2(head.vertices[head.indices[i + k]].uv);
             }
@@ -204,15 +209,16 @@ cv::Mat3f skin_under(const engine::Model& head, std::uint32_t material, const An
             const int y0 = std::max(0, int(std::ceil(texel(std::min({q[0].y, q[1].y, q[2].y})))));
             const int y1 = std::min(size - 1, int(std::floor(texel(std::max({q[0].y, q[1].y, q[2].y})))));
             for (int y = y0; y <= y1; ++y)
-                for (int x = x0; x <= x1; ++x)
-                {
+                for (int x = x0; x <= x1; ++x) {
                     const glm::dvec3 p((x + 0.5) * 2 / size - 1, (y + 0.5) * 2 / size - 1, 0);
-                    const double b = cross(p - q[0], q[2] - q[0]) / area, c = cross(q[1] - q[0], p - q[0]) / area;
+                    const double b = cross(p - q[0], q[2] - q[0]) / area,
+                                 c = cross(q[1] - q[0], p - q[0]) / area;
                     const double height = q[0].z + b * (q[1].z - q[0].z) + c * (q[2].z - q[0].z);
                     if (b < 0 || c < 0 || b + c > 1 || height <= nearest(y, x) || height > reach)
                         continue;
                     nearest(y, x) = height;
-                    skin(y, x) = linear_albedo(head.materials[material], uv[0] + b * (uv[1] - uv[0]) + c * (uv[2] - uv[0]));
+                    skin(y, x) = linear_albedo(head.materials[material],
+                                               uv[0] + b * (uv[1] - uv[0]) + c * (uv[2] - uv[0]));
                 }
         }
     }

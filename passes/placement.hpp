@@ -1,5 +1,5 @@
-// Where on a head a wound sits: the face's own coordinates, the wound's frame on the skin, and what of the head lies
-// under its patch.
+// Where on a head a wound sits: the face's own coordinates, the wound's frame on the skin, and what of the
+// head lies under its patch.
 #pragma once
 #include <array>
 #include <glm/glm.hpp>
@@ -13,8 +13,9 @@
 
 namespace passes {
 
-/// The face's coordinates, found from the mesh: origin at the tip of the nose, y up, x to the right of somebody who looks
-/// at the face; the unit is the height from the tip of the nose to the crown (about 0.14 m).
+/// The face's coordinates, found from the mesh: origin at the tip of the nose, y up, x to the right of
+/// somebody who looks at the face; the unit is the height from the tip of the nose to the crown (about 0.14
+/// m).
 struct FaceFrame
 {
     glm::dvec3 nose_tip{0.0};
@@ -36,13 +37,16 @@ struct NamedPlace
     FacePoint at;
 };
 std::vector<NamedPlace> named_places();
-/// The face coordinates of a place that can be told without the head; none for a point in metres or an unknown name.
+/// The face coordinates of a place that can be told without the head; none for a point in metres or an
+/// unknown name.
 std::optional<FacePoint> known_face_point(const Place& place);
 
-/// An orthonormal frame on the skin. The patch's texel (u right, v down) maps to centre + half_width (u right + v down).
+/// An orthonormal frame on the skin. The patch's texel (u right, v down) maps to centre + half_width (u right
+/// + v down).
 struct Anchor
 {
-    /// How far from the patch's plane skin may lie and still receive the wound, in half widths: a nose's flank, not the far cheek.
+    /// How far from the patch's plane skin may lie and still receive the wound, in half widths: a nose's
+    /// flank, not the far cheek.
     static constexpr double reach = 0.9;
 
     glm::dvec3 centre{0.0}, right{1, 0, 0}, down{0, -1, 0}, normal{0, 0, 1};
@@ -50,11 +54,11 @@ struct Anchor
     FacePoint face;             // the centre in face coordinates
 };
 
-/// Puts a patch of `patch_width_mm` at `place`, turned by `roll_deg` counter-clockwise as the viewer sees it. The normal is the mean
-/// over the footprint, so that the patch lies on the skin rather than on one triangle of it.
-/// Throws cicatrix::InputError (naming `where`) when the place is not on the head.
-Anchor anchor_wound(const engine::Model& head, const FaceFrame& face, const Place& place, double patch_width_mm,
-                    double roll_deg, const std::string& where);
+/// Puts a patch of `patch_width_mm` at `place`, turned by `roll_deg` counter-clockwise as the viewer sees it.
+/// The normal is the mean over the footprint, so that the patch lies on the skin rather than on one triangle
+/// of it. Throws cicatrix::InputError (naming `where`) when the place is not on the head.
+Anchor anchor_wound(const engine::Model& head, const FaceFrame& face, const Place& place,
+                    double patch_width_mm, double roll_deg, const std::string& where);
 
 /// True when the triangle can receive the anchor's projection: it overlaps the patch's box and faces it.
 bool receives(const Anchor& anchor, const std::array<glm::vec3, 3>& corners);

@@ -46,8 +46,9 @@ struct ReflectanceLut
     engine::ImageId reflectance; // linear RGB, >= 0 and finite; u = injury depth, v = day
 };
 
-/// `rung`: one that the shader knows, up to Calibrated; others are computed on the CPU (reflectance_table.hpp).
-/// Adds one compute pass `name`, which the graph skips while the tissue stands. Width: texels over depth.
+/// `rung`: one that the shader knows, up to Calibrated; others are computed on the CPU
+/// (reflectance_table.hpp). Adds one compute pass `name`, which the graph skips while the tissue stands.
+/// Width: texels over depth.
 ReflectanceLut add_reflectance_lut(engine::Graph& graph, std::string_view name, const LutTissue& tissue,
                                    wound::Rung rung, std::uint32_t width = 32);
 

@@ -19,19 +19,24 @@ WoundMaps upload_wound(const engine::Device& device, const wound::Patch& patch)
     shape.convertTo(half_shape, CV_16F);
 
     WoundMaps maps;
-    maps.color = std::make_unique<engine::Texture>(device, half_color, engine::Encoding::Linear, true, "day 0 color");
-    maps.shape = std::make_unique<engine::Texture>(device, half_shape, engine::Encoding::Linear, true, "day 0 shape");
+    maps.color =
+        std::make_unique<engine::Texture>(device, half_color, engine::Encoding::Linear, true, "day 0 color");
+    maps.shape =
+        std::make_unique<engine::Texture>(device, half_shape, engine::Encoding::Linear, true, "day 0 shape");
     maps.bed_luminance = wound::bed_luminance(patch);
     maps.width_mm = patch.width_mm;
     maps.size = patch.color.cols;
     return maps;
 }
 
-WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, const WoundMaps& maps, const wound::WoundDay& today)
+WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, const WoundMaps& maps,
+                               const wound::WoundDay& today)
 {
     const auto size = std::uint32_t(maps.size);
     const engine::ImageDesc desc{size, size, VK_FORMAT_R16G16B16A16_SFLOAT};
-    const WoundTexture texture{graph.image("wound_color" + suffix, desc), graph.image("wound_state" + suffix, desc), graph.image("wound_relief" + suffix, desc)};
+    const WoundTexture texture{graph.image("wound_color" + suffix, desc),
+                               graph.image("wound_state" + suffix, desc),
+                               graph.image("wound_relief" + suffix, desc)};
 
     std::vector<shared::vec2> values;
     shared::WoundToday params{};
@@ -41,14 +46,17 @@ WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, 
     params.border_recovery = float(today.border_recovery);
 
     params.bed_presence = float(today.bed_presence);
-    params.phase = {float(today.phase.clot), float(today.phase.fibrin), float(today.phase.granulation), float(today.phase.rim), float(maps.bed_luminance)};
+    params.phase = {float(today.phase.clot), float(today.phase.fibrin), float(today.phase.granulation),
+                    float(today.phase.rim), float(maps.bed_luminance)};
 
     engine::ComputePass& warp = graph.compute("wound_texture" + suffix, "wound_texture.comp");
     warp.constant("RUNG", std::uint32_t(today.border_warp.rung));
     warp.constant("BED_APART", today.unhealed_ratio != today.border_ratio);
     warp.constant("PHASES", today.in_phases);
-    warp.sample("day0_color", graph.import("day0_color" + suffix, *maps.color), engine::Sampler::LinearClampMips);
-    warp.sample("day0_shape", graph.import("day0_shape" + suffix, *maps.shape), engine::Sampler::LinearClampMips);
+    warp.sample("day0_color", graph.import("day0_color" + suffix, *maps.color),
+                engine::Sampler::LinearClampMips);
+    warp.sample("day0_shape", graph.import("day0_shape" + suffix, *maps.shape),
+                engine::Sampler::LinearClampMips);
     warp.store("color", texture.color);
     warp.store("state", texture.state);
     warp.uniform("Today_", params);
@@ -59,7 +67,10 @@ WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, 
     engine::ComputePass& relief = graph.compute("wound_relief" + suffix, "wound_relief.comp");
     relief.sample("state", texture.state);
     relief.store("relief", texture.relief);
-    relief.uniform("Relief_", shared::Relief{float(today.depth_scale), today.in_phases ? float(today.scar.height_mm) : 0.0f, float(texel_mm), float(4.0 / texel_mm)}); // occlusion looks 4 mm far
+    relief.uniform("Relief_",
+                   shared::Relief{float(today.depth_scale),
+                                  today.in_phases ? float(today.scar.height_mm) : 0.0f, float(texel_mm),
+                                  float(4.0 / texel_mm)}); // occlusion looks 4 mm far
     relief.dispatch(size, size);
     return texture;
 }

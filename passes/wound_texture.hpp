@@ -1,11 +1,11 @@
-// Warps a wound's day-0 maps to today and derives what the light needs to know of its relief. Two compute passes per wound,
-// both skipped while the wound and the day stand.
+// Warps a wound's day-0 maps to today and derives what the light needs to know of its relief. Two compute
+// passes per wound, both skipped while the wound and the day stand.
 #pragma once
 #include <memory>
 #include <string>
 
-#include "engine/graph.hpp"
 #include "engine/device.hpp"
+#include "engine/graph.hpp"
 #include "engine/texture.hpp"
 #include "wound/wound.hpp"
 
@@ -26,11 +26,15 @@ WoundMaps upload_wound(const engine::Device& device, const wound::Patch& patch);
 struct WoundTexture
 {
     engine::ImageId color;  // rgb: linear reflectance W; a: opacity, 0 the face's own skin
-    engine::ImageId state;  // r: depth of the injury at day 0 in mm; g: recovery 0..1 of eq. (4); b: coverage of the open bed; a: coverage inside the border
-    engine::ImageId relief; // rg: slope of the depth along u and v, mm per mm; b: occlusion of the hollow, 1 open; a: depth today in mm
+    engine::ImageId state;  // r: depth of the injury at day 0 in mm; g: recovery 0..1 of eq. (4); b: coverage
+                            // of the open bed; a: coverage inside the border
+    engine::ImageId relief; // rg: slope of the depth along u and v, mm per mm; b: occlusion of the hollow, 1
+                            // open; a: depth today in mm
 };
 
-/// `suffix` tells the wounds of one scene apart in the names of passes and images: "" for the first, " 2" for the second.
-WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, const WoundMaps& maps, const wound::WoundDay& today);
+/// `suffix` tells the wounds of one scene apart in the names of passes and images: "" for the first, " 2" for
+/// the second.
+WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, const WoundMaps& maps,
+                               const wound::WoundDay& today);
 
 } // namespace passes

@@ -1,4 +1,5 @@
-// The two ends of healing: on day 0 the wound's own picture is seen, at closure the skin that was there before.
+// The two ends of healing: on day 0 the wound's own picture is seen, at closure the skin that was there
+// before.
 #include <cmath>
 #include <future>
 #include <gtest/gtest.h>
@@ -20,10 +21,12 @@ passes::Shading bare_color(passes::Shading shading)
 }
 
 /// The linear radiance of a day, as floats.
-cv::Mat3f radiance(const app::Stage& stage, double day, const passes::Camera& camera, const passes::Shading& shading)
+cv::Mat3f radiance(const app::Stage& stage, double day, const passes::Camera& camera,
+                   const passes::Shading& shading)
 {
     engine::Graph graph;
-    graph.readback("picture", stage.declare(graph, stage.wounds_on(day), camera, shading, stage.scene().size).picture);
+    graph.readback("picture",
+                   stage.declare(graph, stage.wounds_on(day), camera, shading, stage.scene().size).picture);
     const auto found = std::ranges::find(graph.images, "radiance", &engine::Graph::Image::name);
     const engine::ReadbackId back = graph.readback("radiance", {std::uint32_t(found - graph.images.begin())});
     engine::Executor executor(gpu::device(), gpu::shaders());
@@ -37,8 +40,10 @@ cv::Mat3f radiance(const app::Stage& stage, double day, const passes::Camera& ca
 cv::Mat4b picture(const app::Stage& stage, double day)
 {
     engine::Graph graph;
-    const engine::ReadbackId back =
-        graph.readback("picture", stage.declare(graph, stage.wounds_on(day), stage.camera(), stage.scene().shading, stage.scene().size).picture);
+    const engine::ReadbackId back = graph.readback(
+        "picture",
+        stage.declare(graph, stage.wounds_on(day), stage.camera(), stage.scene().shading, stage.scene().size)
+            .picture);
     engine::Executor executor(gpu::device(), gpu::shaders());
     return executor.run(graph).mat(back).clone();
 }
@@ -47,13 +52,12 @@ using Endpoint = gpu::Test;
 
 } // namespace
 
-// A flat wall of one colour, seen straight on so that two pixels make one texel of the patch: what is seen must be the patch
-// over the wall's colour, as far as half floats hold it.
+// A flat wall of one colour, seen straight on so that two pixels make one texel of the patch: what is seen
+// must be the patch over the wall's colour, as far as half floats hold it.
 TEST_F(Endpoint, DayZeroShowsTheWoundsOwnPicture)
 {
     const glm::vec3 skin(0.55f, 0.36f, 0.27f);
-    for (const bool published : {false, true})
-    {
+    for (const bool published : {false, true}) {
         app::Scene scene = small::scene(small::wall(skin), 512);
         scene.wounds[0].place = glm::dvec3(0);
         if (published)
@@ -67,7 +71,8 @@ TEST_F(Endpoint, DayZeroShowsTheWoundsOwnPicture)
         props.wounds[0] = ready.get_future();
         const double half_width = props.anchors[0].half_width_m;
         const app::Stage stage(gpu::device(), scene, std::move(props));
-        const double fov_deg = 2 * 180 / CV_PI * std::atan(0.5 * half_width / 1.0); // the middle half of the patch, from 1 m
+        const double fov_deg =
+            2 * 180 / CV_PI * std::atan(0.5 * half_width / 1.0); // the middle half of the patch, from 1 m
         const cv::Mat3f seen = radiance(stage, 0, {{0, 0, 1}, {0, 0, 0}, fov_deg}, bare_color(scene.shading));
 
         cv::Mat2f texel(seen.size());
@@ -81,11 +86,11 @@ TEST_F(Endpoint, DayZeroShowsTheWoundsOwnPicture)
         double largest = 0, opaque = 0;
         cv::Point at;
         for (int y = 0; y < seen.rows; ++y)
-            for (int x = 0; x < seen.cols; ++x)
-            {
-                const cv::Vec3f expected = opacity(y, x) * color(y, x) + (1 - opacity(y, x)) * cv::Vec3f(skin.x, skin.y, skin.z);
-                if (const double difference = cv::norm(seen(y, x) - expected, cv::NORM_INF); difference > largest)
-                {
+            for (int x = 0; x < seen.cols; ++x) {
+                const cv::Vec3f expected =
+                    opacity(y, x) * color(y, x) + (1 - opacity(y, x)) * cv::Vec3f(skin.x, skin.y, skin.z);
+                if (const double difference = cv::norm(seen(y, x) - expected, cv::NORM_INF);
+                    difference > largest) {
                     largest = difference;
                     at = {x, y};
                 }
@@ -106,5 +111,6 @@ TEST_F(Endpoint, ClosureLeavesTheSkinThatWasThereBefore)
     const app::Stage bare(gpu::device(), unhurt, app::Stage::prepare(unhurt));
     const cv::Mat4b without = picture(bare, 365);
     EXPECT_LE(cv::norm(picture(stage, 365), without, cv::NORM_INF), 1);
-    EXPECT_GT(cv::norm(picture(stage, 0), without, cv::NORM_INF), 40) << "on day 0 there is something to heal";
+    EXPECT_GT(cv::norm(picture(stage, 0), without, cv::NORM_INF), 40)
+        << "on day 0 there is something to heal";
 }

@@ -14,12 +14,17 @@ using testing::UnorderedElementsAre;
 /// A scene on the shared device with the memory of what was drawn last.
 struct Studio
 {
-    explicit Studio(const app::Scene& scene) : stage(gpu::device(), scene, app::Stage::prepare(scene)), shading(scene.shading) {}
+    explicit Studio(const app::Scene& scene)
+        : stage(gpu::device(), scene, app::Stage::prepare(scene)), shading(scene.shading)
+    {
+    }
 
     engine::FrameResult draw(double day)
     {
         engine::Graph graph;
-        graph.readback("picture", stage.declare(graph, stage.wounds_on(day), stage.camera(), shading, stage.scene().size).picture);
+        graph.readback(
+            "picture",
+            stage.declare(graph, stage.wounds_on(day), stage.camera(), shading, stage.scene().size).picture);
         return executor.run(graph);
     }
     cv::Mat4b picture(double day) { return draw(day).mat({0}).clone(); }
@@ -38,7 +43,10 @@ std::vector<std::string> passes_in(const engine::FrameResult& frame, PassState s
     return names;
 }
 
-std::vector<std::string> ran(const engine::FrameResult& frame) { return passes_in(frame, PassState::Run); }
+std::vector<std::string> ran(const engine::FrameResult& frame)
+{
+    return passes_in(frame, PassState::Run);
+}
 
 double share_that_differs(const cv::Mat4b& a, const cv::Mat4b& b, int by_more_than)
 {
@@ -57,13 +65,16 @@ using Frame = gpu::Test;
 TEST_F(Frame, RunsAgainOnlyWhatAChangeReaches)
 {
     Studio studio(small::scene(small::head()));
-    EXPECT_THAT(ran(studio.draw(3)), UnorderedElementsAre("wound_texture", "wound_relief", "reflectance_lut", "shadow", "forward", "tonemap"));
+    EXPECT_THAT(ran(studio.draw(3)), UnorderedElementsAre("wound_texture", "wound_relief", "reflectance_lut",
+                                                          "shadow", "forward", "tonemap"));
 
     const engine::FrameResult unchanged = studio.draw(3);
     EXPECT_THAT(ran(unchanged), UnorderedElementsAre("forward", "tonemap"));
-    EXPECT_THAT(passes_in(unchanged, PassState::Skipped), UnorderedElementsAre("wound_texture", "wound_relief", "reflectance_lut", "shadow"));
+    EXPECT_THAT(passes_in(unchanged, PassState::Skipped),
+                UnorderedElementsAre("wound_texture", "wound_relief", "reflectance_lut", "shadow"));
 
-    EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("wound_texture", "wound_relief", "forward", "tonemap"));
+    EXPECT_THAT(ran(studio.draw(4)),
+                UnorderedElementsAre("wound_texture", "wound_relief", "forward", "tonemap"));
 
     std::vector<app::LightScene> lights = studio.stage.scene().lights;
     lights[0].intensity *= 0.5;
@@ -92,8 +103,10 @@ TEST_F(Frame, OfEveryWoundRunsAgainWhatTheDayReaches)
     scene.wounds[1].healing.curve.delta = 0; // never heals
     scene.wounds[1].healing.model = wound::HealingModel::contraction;
     Studio studio(scene);
-    EXPECT_THAT(ran(studio.draw(3)), IsSupersetOf({"wound_texture", "wound_texture 2", "reflectance_lut", "reflectance_lut 2"}));
-    EXPECT_THAT(ran(studio.draw(6)), UnorderedElementsAre("wound_texture", "wound_relief", "forward", "tonemap"));
+    EXPECT_THAT(ran(studio.draw(3)),
+                IsSupersetOf({"wound_texture", "wound_texture 2", "reflectance_lut", "reflectance_lut 2"}));
+    EXPECT_THAT(ran(studio.draw(6)),
+                UnorderedElementsAre("wound_texture", "wound_relief", "forward", "tonemap"));
 }
 
 TEST_F(Frame, WithoutWoundsDeclaresNoneOfTheirPasses)

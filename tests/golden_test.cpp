@@ -1,6 +1,7 @@
 // A few small pictures against golden ones in tests/golden/: they say "changed", never "wrong".
 //
-// After a change that is meant to be seen, look at the pictures in golden_failures/ of the build folder and make new golden ones:
+// After a change that is meant to be seen, look at the pictures in golden_failures/ of the build folder and
+// make new golden ones:
 //   CICATRIX_WRITE_GOLDEN=1 ctest --test-dir build -R Golden
 #include <cstdlib>
 #include <gtest/gtest.h>
@@ -18,10 +19,12 @@ namespace {
 void compare(engine::Executor& executor, const app::Stage& stage, double day, const std::string& name)
 {
     engine::Graph graph;
-    const passes::FrameImages images = stage.declare(graph, stage.wounds_on(day), stage.camera(), stage.scene().shading, stage.scene().size);
+    const passes::FrameImages images =
+        stage.declare(graph, stage.wounds_on(day), stage.camera(), stage.scene().shading, stage.scene().size);
     const auto radiance = std::ranges::find(graph.images, "radiance", &engine::Graph::Image::name);
-    const engine::ReadbackId ids[] = {graph.readback("picture", images.picture),
-                                      graph.readback("radiance", {std::uint32_t(radiance - graph.images.begin())})};
+    const engine::ReadbackId ids[] = {
+        graph.readback("picture", images.picture),
+        graph.readback("radiance", {std::uint32_t(radiance - graph.images.begin())})};
     const engine::FrameResult frame = executor.run(graph);
     cv::Mat3b picture;
     cv::cvtColor(frame.mat(ids[0]), picture, cv::COLOR_RGBA2RGB);
@@ -31,7 +34,8 @@ void compare(engine::Executor& executor, const app::Stage& stage, double day, co
     const std::filesystem::path golden = std::filesystem::path(CICATRIX_GOLDEN) / (name + ".png");
     if (std::getenv("CICATRIX_WRITE_GOLDEN") != nullptr)
         engine::write_png(golden, picture);
-    const engine::Comparison comparison = engine::compare_with_golden(linear, picture, golden, "golden_failures");
+    const engine::Comparison comparison =
+        engine::compare_with_golden(linear, picture, golden, "golden_failures");
     EXPECT_TRUE(comparison.equal) << name << ": " << comparison.report;
 }
 

@@ -41,7 +41,8 @@ Outcome run_program(const std::vector<std::string>& arguments, const std::vector
     for (const std::string& argument : arguments)
         words.push_back(quoted(argument));
     const std::filesystem::path out = folder / "out", err = folder / "err";
-    const std::string command = fmt::format("{} >{} 2>{} </dev/null", fmt::join(words, " "), quoted(out), quoted(err));
+    const std::string command =
+        fmt::format("{} >{} 2>{} </dev/null", fmt::join(words, " "), quoted(out), quoted(err));
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(out), text_of(err)};
 }

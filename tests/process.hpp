@@ -11,4 +11,5 @@ struct Outcome
 };
 
 /// `environment`: VARIABLE=value, added to the test's own.
-Outcome run_program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
+Outcome run_program(const std::vector<std::string>& arguments,
+                    const std::vector<std::string>& environment = {});

@@ -55,7 +55,10 @@ class Program : public testing::Test
 {
   protected:
     std::string file(std::string_view name) const { return (folder_ / name).string(); }
-    std::string with(std::string_view name, std::string_view bytes) const { return folder_.with(name, bytes).string(); }
+    std::string with(std::string_view name, std::string_view bytes) const
+    {
+        return folder_.with(name, bytes).string();
+    }
     template <typename Picture>
     std::string with_png(std::string_view name, const Picture& picture) const
     {
@@ -64,7 +67,8 @@ class Program : public testing::Test
     }
 
     /// A small capture, to be spoilt by `more`.
-    Outcome capture(const std::vector<std::string>& more, const std::vector<std::string>& environment = {}) const
+    Outcome capture(const std::vector<std::string>& more,
+                    const std::vector<std::string>& environment = {}) const
     {
         std::vector<std::string> arguments{"capture", "--out", file("out"), "--no-cost"};
         arguments.insert(arguments.end(), more.begin(), more.end());
@@ -100,7 +104,8 @@ TEST_F(Program, CapturesAHealingWound)
 {
     const Outcome outcome = on_the_head({"--size", "160x120", "--days", "0,5,5"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_THAT(files_in(file("out")), UnorderedElementsAre("day_000.png", "day_005.png", "day_005_2.png", "healing.png", "capture.json"));
+    EXPECT_THAT(files_in(file("out")), UnorderedElementsAre("day_000.png", "day_005.png", "day_005_2.png",
+                                                            "healing.png", "capture.json"));
     EXPECT_EQ(engine::read_rgb(file("out/day_000.png")).size(), cv::Size(160, 120));
     EXPECT_EQ(bytes_of(file("out/day_005.png")), bytes_of(file("out/day_005_2.png")));
     EXPECT_NE(bytes_of(file("out/day_000.png")), bytes_of(file("out/day_005.png")));
@@ -111,15 +116,13 @@ TEST_F(Program, CapturesAHealingWound)
     EXPECT_NE(record.at("driver"), "");
     EXPECT_EQ(record.at("size"), json({160, 120}));
     ASSERT_EQ(record.at("days").size(), 3u);
-    for (const json& day : record.at("days"))
-    {
+    for (const json& day : record.at("days")) {
         EXPECT_TRUE(std::filesystem::exists(folder_ / ("out/" + day.at("file").get<std::string>())));
         EXPECT_GT(day.at("frame_ms"), 0);
         const double unhealed = day.at("unhealed_ratio");
         EXPECT_NEAR(day.at("recovery_ratio"), 1 - unhealed, 1e-12);
         EXPECT_NEAR(day.at("mask_area_ratio"), unhealed, 0.005);
-        for (const json& pass : day.at("passes"))
-        {
+        for (const json& pass : day.at("passes")) {
             EXPECT_TRUE(pass.at("name").is_string());
             EXPECT_THAT(pass.at("state").get<std::string>(), testing::AnyOf("ran", "skipped", "culled"));
             EXPECT_TRUE(pass.at("gpu_ms").is_number() || pass.at("gpu_ms").is_null());
@@ -140,19 +143,23 @@ TEST_F(Program, CapturesAHealingWound)
 
 TEST_F(Program, CapturesInPublishedModeWithAPhotographAndItsMask)
 {
-    const Outcome outcome = on_the_head({"--size", "64x64", "--days", "9", "--mode", "published", "--msaa", "--wound", with_png("photo.png", photo()),
-                                         "--mask", with_png("mask.png", disc(128, {64, 64}, 24))});
+    const Outcome outcome = on_the_head({"--size", "64x64", "--days", "9", "--mode", "published", "--msaa",
+                                         "--wound", with_png("photo.png", photo()), "--mask",
+                                         with_png("mask.png", disc(128, {64, 64}, 24))});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_THAT(files_in(file("out")), testing::Contains("day_009.png"));
 }
 
 TEST_F(Program, PrintsItsScheduleAsTextAndGraphviz)
 {
-    const Outcome outcome = run_program({"graph", "--head", head_, "--size", "64x64", "--days", "3,3", "--dot", file("frame.dot")});
+    const Outcome outcome = run_program(
+        {"graph", "--head", head_, "--size", "64x64", "--days", "3,3", "--dot", file("frame.dot")});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    for (const char* word : {"wound_texture", "wound_relief", "reflectance_lut", "shadow", "forward", "tonemap", "64 x 64", "unchanged"})
+    for (const char* word : {"wound_texture", "wound_relief", "reflectance_lut", "shadow", "forward",
+                             "tonemap", "64 x 64", "unchanged"})
         EXPECT_THAT(outcome.out, HasSubstr(word));
-    EXPECT_THAT(bytes_of(file("frame.dot")), testing::AllOf(testing::StartsWith("digraph"), HasSubstr("tonemap"), HasSubstr("}")));
+    EXPECT_THAT(bytes_of(file("frame.dot")),
+                testing::AllOf(testing::StartsWith("digraph"), HasSubstr("tonemap"), HasSubstr("}")));
 }
 
 TEST_F(Program, ListsDevicesAndExplainsItsCommands)
@@ -164,8 +171,7 @@ TEST_F(Program, ListsDevicesAndExplainsItsCommands)
     EXPECT_EQ(all.code, 0);
     int commands = 0;
     std::istringstream lines(all.out.substr(std::min(all.out.find("Subcommands:"), all.out.size())));
-    for (std::string line; std::getline(lines, line);)
-    {
+    for (std::string line; std::getline(lines, line);) {
         std::string command;
         if (!line.starts_with("  ") || line.starts_with("   ") || !(std::istringstream(line) >> command))
             continue;
@@ -184,8 +190,10 @@ TEST_F(Program, RefusesBrokenHeads)
     expect_refusal(capture({"--head", file("none.glb")}), {"none.glb"});
     expect_refusal(capture({"--head", with("half.glb", glb.substr(0, glb.size() / 2))}), {"half.glb"});
     expect_refusal(capture({"--head", with("text.glb", "not a head at all")}), {"text.glb"});
-    expect_refusal(capture({"--head", with("broken.gltf", R"({"asset": {"version": "2.0"}, "meshes": [)")}), {"broken.gltf"});
-    expect_refusal(capture({"--head", with("empty.gltf", R"({"asset": {"version": "2.0"}})")}), {"empty.gltf"});
+    expect_refusal(capture({"--head", with("broken.gltf", R"({"asset": {"version": "2.0"}, "meshes": [)")}),
+                   {"broken.gltf"});
+    expect_refusal(capture({"--head", with("empty.gltf", R"({"asset": {"version": "2.0"}})")}),
+                   {"empty.gltf"});
 }
 
 TEST_F(Program, RefusesBrokenPhotographs)
@@ -198,7 +206,8 @@ TEST_F(Program, RefusesBrokenPhotographs)
     expect_refusal(on_the_head({"--wound", with("half.png", png.substr(0, png.size() / 2))}), {"half.png"});
     expect_refusal(on_the_head({"--wound", with("half.jpg", jpeg.substr(0, jpeg.size() / 2))}), {"half.jpg"});
     expect_refusal(on_the_head({"--wound", with("text.jpg", "not a photograph")}), {"text.jpg"});
-    expect_refusal(on_the_head({"--wound", with_png("plain.png", photo(128, 0))}), {"plain.png", "no wound", "mask"});
+    expect_refusal(on_the_head({"--wound", with_png("plain.png", photo(128, 0))}),
+                   {"plain.png", "no wound", "mask"});
 }
 
 TEST_F(Program, RefusesBrokenMasks)
@@ -213,19 +222,23 @@ TEST_F(Program, RefusesBrokenMasks)
     refused(with_png("full.png", cv::Mat1b(128, 128, 255)), {"full.png", "full"});
     refused(with_png("other.png", disc(64, {32, 32}, 12)), {"other.png", "64x64", "128x128"});
     refused(with_png("edge.png", disc(128, {10, 64}, 24)), {"edge.png", "edge"});
-    expect_refusal(on_the_head({"--mask", with_png("mask.png", disc(128, {64, 64}, 24))}), {"--mask", "--wound"});
+    expect_refusal(on_the_head({"--mask", with_png("mask.png", disc(128, {64, 64}, 24))}),
+                   {"--mask", "--wound"});
 }
 
 TEST_F(Program, RefusesBrokenScenes)
 {
     expect_refusal(capture({file("none.json")}), {"none.json"});
-    const auto refused = [&](const std::string& text, const std::string& field) { expect_refusal(capture({with("scene.json", text)}), {"scene.json", field}); };
+    const auto refused = [&](const std::string& text, const std::string& field) {
+        expect_refusal(capture({with("scene.json", text)}), {"scene.json", field});
+    };
     refused("{\n \"size\": \"64x64\",\n \"days\": [0,", "line 3");
     refused(R"({"wounds": [{"width": 3}]})", "/wounds/0/width");
     refused(R"({"wounds": [{"width_mm": -3}]})", "/wounds/0/width_mm");
     refused(R"({"exposure_stops": NaN})", "JSON");
     refused(R"({"camera": {"fov_deg": 1e999}})", "JSON");
-    expect_refusal(capture({with("scene.json", R"({"tissue": "none.json"})"), "--head", head_}), {"none.json"});
+    expect_refusal(capture({with("scene.json", R"({"tissue": "none.json"})"), "--head", head_}),
+                   {"none.json"});
 }
 
 TEST_F(Program, RefusesSenselessOptions)
@@ -244,16 +257,20 @@ TEST_F(Program, RefusesSenselessOptions)
 TEST_F(Program, RefusesAnOutputFolderItCannotWrite)
 {
     const std::string below_a_file = with("file", "in the way") + "/out";
-    expect_refusal(run_program({"capture", "--head", head_, "--no-cost", "--out", below_a_file}), {below_a_file, "--out"});
+    expect_refusal(run_program({"capture", "--head", head_, "--no-cost", "--out", below_a_file}),
+                   {below_a_file, "--out"});
     EXPECT_EQ(bytes_of(file("file")), "in the way");
-    Outcome graph = run_program({"graph", "--head", head_, "--days", "0", "--size", "64x64", "--dot", below_a_file});
+    Outcome graph =
+        run_program({"graph", "--head", head_, "--days", "0", "--size", "64x64", "--dot", below_a_file});
     graph.out.clear(); // the text printed until then stands
     expect_refusal(graph, {below_a_file});
 }
 
 TEST_F(Program, SaysSoWithoutAVulkanDevice)
 {
-    expect_refusal(capture({"--head", head_}, {"VK_ICD_FILENAMES=/nonexistent", "VK_DRIVER_FILES=/nonexistent"}), {"Vulkan"});
+    expect_refusal(
+        capture({"--head", head_}, {"VK_ICD_FILENAMES=/nonexistent", "VK_DRIVER_FILES=/nonexistent"}),
+        {"Vulkan"});
 }
 
 TEST_F(Program, TakesAHeadWithoutNormalsUvsOrTexturesAndSaysSo)
@@ -272,11 +289,19 @@ TEST_F(Program, TakesAHeadWithoutNormalsUvsOrTexturesAndSaysSo)
         {"nodes", {{{"mesh", 0}}}},
         {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
         {"accessors",
-         {{{"bufferView", 0}, {"componentType", 5126}, {"count", model.vertices.size()}, {"type", "VEC3"}, {"min", {-1, -1, -1}}, {"max", {1, 1, 1}}},
+         {{{"bufferView", 0},
+           {"componentType", 5126},
+           {"count", model.vertices.size()},
+           {"type", "VEC3"},
+           {"min", {-1, -1, -1}},
+           {"max", {1, 1, 1}}},
           {{"bufferView", 1}, {"componentType", 5125}, {"count", model.indices.size()}, {"type", "SCALAR"}}}},
-        {"bufferViews", {{{"buffer", 0}, {"byteLength", positions}}, {{"buffer", 0}, {"byteOffset", positions}, {"byteLength", indices}}}},
+        {"bufferViews",
+         {{{"buffer", 0}, {"byteLength", positions}},
+          {{"buffer", 0}, {"byteOffset", positions}, {"byteLength", indices}}}},
         {"buffers", {{{"byteLength", bytes.size()}, {"uri", "head.bin"}}}}};
-    const Outcome outcome = capture({"--head", with("bare.gltf", gltf.dump()), "--size", "64x64", "--days", "0"});
+    const Outcome outcome =
+        capture({"--head", with("bare.gltf", gltf.dump()), "--size", "64x64", "--days", "0"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("bare.gltf"), HasSubstr("normals")));
 }

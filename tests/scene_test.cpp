@@ -17,13 +17,10 @@ using testing::HasSubstr;
 template <typename Read>
 std::string refusal(Read&& read)
 {
-    try
-    {
+    try {
         read();
         return "accepted";
-    }
-    catch (const cicatrix::InputError& error)
-    {
+    } catch (const cicatrix::InputError& error) {
         return error.what();
     }
 }
@@ -31,7 +28,10 @@ std::string refusal(Read&& read)
 class SceneFile : public testing::Test
 {
   protected:
-    app::Scene read(const std::string& text) const { return app::read_scene(folder_.with("scene.json", text)); }
+    app::Scene read(const std::string& text) const
+    {
+        return app::read_scene(folder_.with("scene.json", text));
+    }
     std::string refused(const std::string& text) const
     {
         return refusal([&] { read(text); });
@@ -75,7 +75,8 @@ TEST_F(SceneFile, WhatIsWrittenReadsBackAsTheSameScene)
 
 TEST_F(SceneFile, FilesLieBesideTheScene)
 {
-    const app::Scene scene = read(R"({"head": "a.glb", "wounds": [{"photo": "b.jpg", "mask": "/elsewhere/c.png"}]})");
+    const app::Scene scene =
+        read(R"({"head": "a.glb", "wounds": [{"photo": "b.jpg", "mask": "/elsewhere/c.png"}]})");
     EXPECT_EQ(scene.head, folder_ / "a.glb");
     EXPECT_EQ(scene.wounds.at(0).photo, folder_ / "b.jpg");
     EXPECT_EQ(scene.wounds.at(0).mask, "/elsewhere/c.png");
@@ -125,7 +126,8 @@ TEST_F(SceneFile, EachMistakeNamesFileAndField)
         {R"({"exposure_stops": 1e999})", "not valid JSON"},
     };
     for (const auto& [text, field] : mistakes)
-        EXPECT_THAT(refused(text), AllOf(HasSubstr("scene.json: "), HasSubstr(field), HasSubstr("; "))) << text;
+        EXPECT_THAT(refused(text), AllOf(HasSubstr("scene.json: "), HasSubstr(field), HasSubstr("; ")))
+            << text;
 }
 
 TEST_F(SceneFile, ThatDoesNotExistIsNamed)
@@ -145,7 +147,8 @@ TEST(Days, AreARangeOrAList)
 
 TEST(Days, ThatMakeNoSenseAreRefused)
 {
-    for (const char* text : {"", ",", "5,", "a", "1,b", "-1", "nan", "inf", "3651", "1e99", "0:30", "0:30:0", "0:30:-1", "30:0:1", "0:3650:1e-9", "1:2:3:4", "0:nan:1", "5 "})
+    for (const char* text : {"", ",", "5,", "a", "1,b", "-1", "nan", "inf", "3651", "1e99", "0:30", "0:30:0",
+                             "0:30:-1", "30:0:1", "0:3650:1e-9", "1:2:3:4", "0:nan:1", "5 "})
         EXPECT_THAT(refusal([&] { app::parse_days(text, "--days"); }), HasSubstr("--days: ")) << text;
 }
 
@@ -153,7 +156,8 @@ TEST(PictureSize, IsWidthByHeight)
 {
     EXPECT_THAT(app::parse_size("1280x720", "--size"), ElementsAre(1280, 720));
     EXPECT_THAT(app::parse_size("16x16384", "--size"), ElementsAre(16, 16384));
-    for (const char* text : {"", "x", "640", "640x", "x480", "0x0", "15x16", "100000x100000", "-64x64", "64x-64", "64X64", "64x64x64", "64.5x64", " 64x64", "99999999999x64", "nanxnan"})
+    for (const char* text : {"", "x", "640", "640x", "x480", "0x0", "15x16", "100000x100000", "-64x64",
+                             "64x-64", "64X64", "64x64x64", "64.5x64", " 64x64", "99999999999x64", "nanxnan"})
         EXPECT_THAT(refusal([&] { app::parse_size(text, "--size"); }), HasSubstr("--size: ")) << text;
 }
 

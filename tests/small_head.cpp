@@ -14,7 +14,8 @@ constexpr std::uint32_t rings = 64, sectors = 128;
 glm::dvec3 skin_at(double u, double v)
 {
     const double around = 2 * std::numbers::pi * (u - 0.5), down = std::numbers::pi * v;
-    glm::dvec3 p(0.075 * std::sin(down) * std::sin(around), 0.115 * std::cos(down), 0.095 * std::sin(down) * std::cos(around));
+    glm::dvec3 p(0.075 * std::sin(down) * std::sin(around), 0.115 * std::cos(down),
+                 0.095 * std::sin(down) * std::cos(around));
     if (p.z > 0)
         p.z += 0.02 * std::exp(-std::pow(p.x / 0.014, 2) - std::pow((p.y + 0.005) / 0.02, 2)); // the nose
     return p;
@@ -25,15 +26,18 @@ engine::Vertex vertex_at(double u, double v)
     const double step = 1e-5, inside = std::clamp(v, 0.002, 0.998); // at the poles one derivative vanishes
     const glm::dvec3 across = skin_at(u + step, inside) - skin_at(u - step, inside);
     const glm::dvec3 down = skin_at(u, inside + step) - skin_at(u, inside - step);
-    return {glm::vec3(skin_at(u, v)), glm::vec3(glm::normalize(glm::cross(down, across))), glm::vec4(glm::normalize(across), 1), {u, v}};
+    return {glm::vec3(skin_at(u, v)),
+            glm::vec3(glm::normalize(glm::cross(down, across))),
+            glm::vec4(glm::normalize(across), 1),
+            {u, v}};
 }
 
-/// Triangles of a grid of (columns + 1) x (rows + 1) vertices, row by row from the top left as seen from outside.
+/// Triangles of a grid of (columns + 1) x (rows + 1) vertices, row by row from the top left as seen from
+/// outside.
 void add_grid_triangles(engine::Model& model, std::uint32_t columns, std::uint32_t rows)
 {
     for (std::uint32_t j = 0; j < rows; ++j)
-        for (std::uint32_t i = 0; i < columns; ++i)
-        {
+        for (std::uint32_t i = 0; i < columns; ++i) {
             const std::uint32_t a = j * (columns + 1) + i, below = a + columns + 1;
             model.indices.insert(model.indices.end(), {a, below, a + 1, a + 1, below, below + 1});
         }
@@ -46,10 +50,11 @@ cv::Mat4b blotched_skin()
 {
     cv::Mat4b color(64, 128);
     for (int y = 0; y < color.rows; ++y)
-        for (int x = 0; x < color.cols; ++x)
-        {
+        for (int x = 0; x < color.cols; ++x) {
             const double blotch = 8 * std::sin(x * 0.49) * std::cos(y * 0.39);
-            color(y, x) = cv::Vec4b(cv::saturate_cast<uchar>(205 + blotch), cv::saturate_cast<uchar>(158 + blotch), cv::saturate_cast<uchar>(136 + blotch), 255);
+            color(y, x) =
+                cv::Vec4b(cv::saturate_cast<uchar>(205 + blotch), cv::saturate_cast<uchar>(158 + blotch),
+                          cv::saturate_cast<uchar>(136 + blotch), 255);
         }
     return color;
 }
@@ -59,7 +64,8 @@ cv::Mat3b rippled_normals()
     cv::Mat3b normal(64, 128);
     for (int y = 0; y < normal.rows; ++y)
         for (int x = 0; x < normal.cols; ++x)
-            normal(y, x) = cv::Vec3b(cv::saturate_cast<uchar>(128 + 12 * std::sin(x * 0.8)), cv::saturate_cast<uchar>(128 + 12 * std::sin(y * 0.8)), 254);
+            normal(y, x) = cv::Vec3b(cv::saturate_cast<uchar>(128 + 12 * std::sin(x * 0.8)),
+                                     cv::saturate_cast<uchar>(128 + 12 * std::sin(y * 0.8)), 254);
     return normal;
 }
 
@@ -85,10 +91,10 @@ engine::Model wall(const glm::vec3& linear_color)
     constexpr std::uint32_t cells = 16;
     engine::Model model;
     for (std::uint32_t j = 0; j <= cells; ++j)
-        for (std::uint32_t i = 0; i <= cells; ++i)
-        {
+        for (std::uint32_t i = 0; i <= cells; ++i) {
             const glm::vec2 uv(float(i) / cells, float(j) / cells);
-            model.vertices.push_back({{0.24f * (uv.x - 0.5f), 0.24f * (0.5f - uv.y), 0}, {0, 0, 1}, {1, 0, 0, 1}, uv});
+            model.vertices.push_back(
+                {{0.24f * (uv.x - 0.5f), 0.24f * (0.5f - uv.y), 0}, {0, 0, 1}, {1, 0, 0, 1}, uv});
         }
     engine::Material skin;
     skin.name = "skin";

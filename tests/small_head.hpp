@@ -1,4 +1,5 @@
-// Heads made by code, small enough for tests: a rounded one with a nose, and a wall of skin whose every point is known.
+// Heads made by code, small enough for tests: a rounded one with a nose, and a wall of skin whose every point
+// is known.
 #pragma once
 #include "apps/scene.hpp"
 #include "engine/model.hpp"

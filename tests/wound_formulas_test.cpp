@@ -1,4 +1,5 @@
-// What wound_texture.comp and wound_relief.comp compute, beside the warp, against independent double-precision versions.
+// What wound_texture.comp and wound_relief.comp compute, beside the warp, against independent
+// double-precision versions.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -24,7 +25,8 @@ cv::Mat4f read(const engine::FrameResult& frame, engine::ReadbackId id)
 TEST_F(WoundFormulas, PhasesColourTheBedAsTheReferenceDoes)
 {
     constexpr int side = 64;
-    wound::Patch patch{cv::Mat3f(side, side), cv::Mat1f(side, side, 1.f), cv::Mat1f(side, side, 1.f), cv::Mat1f(side, side, 0.f), 30};
+    wound::Patch patch{cv::Mat3f(side, side), cv::Mat1f(side, side, 1.f), cv::Mat1f(side, side, 1.f),
+                       cv::Mat1f(side, side, 0.f), 30};
     cv::RNG random(7);
     random.fill(patch.color, cv::RNG::UNIFORM, 0, 1);
     patch.color(0, 0) = {0, 0, 0}; // the extremes
@@ -38,26 +40,25 @@ TEST_F(WoundFormulas, PhasesColourTheBedAsTheReferenceDoes)
     std::vector<wound::Phase> phases{{1, 1, 1, 1, 1}, {0, 0, 0, 0, 0}, {.3, 0, .9, .5, 1}};
     for (const double day : {0., .7, 2., 4., 7., 12., 30.})
         phases.push_back(wound::phase_at(day, 30));
-    for (const wound::Phase& phase : phases)
-    {
+    for (const wound::Phase& phase : phases) {
         wound::WoundDay day;
         day.in_phases = true;
         day.phase = phase;
         engine::Graph graph;
-        const engine::ReadbackId id = graph.readback("color", passes::add_wound_texture(graph, "", maps, day).color);
+        const engine::ReadbackId id =
+            graph.readback("color", passes::add_wound_texture(graph, "", maps, day).color);
         const cv::Mat4f drawn = read(executor.run(graph), id);
         double worst = 0;
         for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x)
-            {
+            for (int x = 0; x < side; ++x) {
                 const cv::Vec3d expected = wound::tinted(cv::Vec3d(patch.color(y, x)), phase, luminance);
-                for (int c = 0; c < 3; ++c)
-                {
+                for (int c = 0; c < 3; ++c) {
                     ASSERT_TRUE(std::isfinite(drawn(y, x)[c]) && drawn(y, x)[c] >= 0);
                     worst = std::max(worst, std::abs(drawn(y, x)[c] - expected[c]));
                 }
             }
-        EXPECT_LT(worst, .003) << "clot " << phase.clot << ", fibrin " << phase.fibrin << ", granulation " << phase.granulation;
+        EXPECT_LT(worst, .003) << "clot " << phase.clot << ", fibrin " << phase.fibrin << ", granulation "
+                               << phase.granulation;
     }
 }
 
@@ -77,39 +78,39 @@ TEST_F(WoundFormulas, ReliefIsTheSlopeAndTheOpennessOfTheDepth)
     engine::Executor executor(gpu::device(), gpu::shaders());
     const double texel_mm = wound.patch.width_mm / 128, reach = 4 / texel_mm;
 
-    for (const double today : {0., 6., 15., 60.})
-    {
+    for (const double today : {0., 6., 15., 60.}) {
         const wound::WoundDay day = wound::wound_at(wound, {}, today);
         engine::Graph graph;
         const passes::WoundTexture texture = passes::add_wound_texture(graph, "", maps, day);
-        const engine::ReadbackId state_id = graph.readback("state", texture.state), relief_id = graph.readback("relief", texture.relief);
+        const engine::ReadbackId state_id = graph.readback("state", texture.state),
+                                 relief_id = graph.readback("relief", texture.relief);
         const engine::FrameResult frame = executor.run(graph);
         const cv::Mat4f state = read(frame, state_id), relief = read(frame, relief_id);
         const auto at = [&](int x, int y) { return depth(state, x, y, day.depth_scale, day.scar.height_mm); };
         for (int y = 0; y < 128; ++y)
-            for (int x = 0; x < 128; ++x)
-            {
+            for (int x = 0; x < 128; ++x) {
                 double du = 0, dv = 0;
-                for (int k = -1; k <= 1; ++k)
-                {
+                for (int k = -1; k <= 1; ++k) {
                     const double weight = (2 - std::abs(k)) / (8 * texel_mm);
                     du += weight * (at(x + 1, y + k) - at(x - 1, y + k));
                     dv += weight * (at(x + k, y + 1) - at(x + k, y - 1));
                 }
                 double open = 0;
-                for (int direction = 0; direction < 6; ++direction)
-                {
+                for (int direction = 0; direction < 6; ++direction) {
                     const double angle = 2 * std::numbers::pi * (direction + .5) / 6;
                     double horizon = 0; // elevation
-                    for (const double share : {1 / 16., 4 / 16., 9 / 16., 1.})
-                    {
-                        const int i = x + int(std::lround(std::cos(angle) * share * reach)), j = y + int(std::lround(std::sin(angle) * share * reach));
-                        horizon = std::max(horizon, std::atan2(at(x, y) - at(i, j), std::max(share * reach, 1.) * texel_mm));
+                    for (const double share : {1 / 16., 4 / 16., 9 / 16., 1.}) {
+                        const int i = x + int(std::lround(std::cos(angle) * share * reach)),
+                                  j = y + int(std::lround(std::sin(angle) * share * reach));
+                        horizon = std::max(
+                            horizon, std::atan2(at(x, y) - at(i, j), std::max(share * reach, 1.) * texel_mm));
                     }
                     open += std::pow(std::cos(horizon), 2) / 6;
                 }
-                ASSERT_NEAR(relief(y, x)[0], du, .002 + .002 * std::abs(du)) << "day " << today << " at " << x << ", " << y;
-                ASSERT_NEAR(relief(y, x)[1], dv, .002 + .002 * std::abs(dv)) << "day " << today << " at " << x << ", " << y;
+                ASSERT_NEAR(relief(y, x)[0], du, .002 + .002 * std::abs(du))
+                    << "day " << today << " at " << x << ", " << y;
+                ASSERT_NEAR(relief(y, x)[1], dv, .002 + .002 * std::abs(dv))
+                    << "day " << today << " at " << x << ", " << y;
                 ASSERT_NEAR(relief(y, x)[2], open, .002) << "day " << today << " at " << x << ", " << y;
                 ASSERT_NEAR(relief(y, x)[3], at(x, y), .003) << "day " << today << " at " << x << ", " << y;
             }

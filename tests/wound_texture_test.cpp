@@ -1,4 +1,5 @@
-// The wound's compute passes: the warped mask's area, the shader's warp against the double-precision one, hostile days.
+// The wound's compute passes: the warped mask's area, the shader's warp against the double-precision one,
+// hostile days.
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -22,11 +23,12 @@ constexpr WarpRung rungs[] = {WarpRung::radial, WarpRung::grid, WarpRung::dense,
 wound::Photograph irregular_photograph()
 {
     std::vector<cv::Point> border;
-    for (int i = 0; i < 360; ++i)
-    {
+    for (int i = 0; i < 360; ++i) {
         const double angle = i * std::numbers::pi / 180;
-        const double radius = 90 + 28 * std::sin(3 * angle + 1) + 14 * std::sin(7 * angle) + 6 * std::cos(13 * angle);
-        border.emplace_back(cvRound(200 + 1.3 * radius * std::cos(angle)), cvRound(190 + radius * std::sin(angle)));
+        const double radius =
+            90 + 28 * std::sin(3 * angle + 1) + 14 * std::sin(7 * angle) + 6 * std::cos(13 * angle);
+        border.emplace_back(cvRound(200 + 1.3 * radius * std::cos(angle)),
+                            cvRound(190 + radius * std::sin(angle)));
     }
     wound::Photograph photograph{cv::Mat3b(400, 400, cv::Vec3b(205, 160, 138)), cv::Mat1b::zeros(400, 400)};
     cv::fillPoly(photograph.mask, std::vector{border}, 255);
@@ -42,7 +44,8 @@ wound::PreparedWound prepared(const wound::Photograph& photograph, int patch_siz
 }
 
 /// A day of which only the areas matter.
-wound::WoundDay day_with(const wound::PreparedWound& wound, double bed_ratio, double border_ratio, WarpRung rung = WarpRung::grid)
+wound::WoundDay day_with(const wound::PreparedWound& wound, double bed_ratio, double border_ratio,
+                         WarpRung rung = WarpRung::grid)
 {
     wound::WoundDay day;
     day.unhealed_ratio = bed_ratio;
@@ -64,7 +67,9 @@ Maps draw(engine::Executor& executor, const passes::WoundMaps& maps, const wound
 {
     engine::Graph graph;
     const passes::WoundTexture texture = passes::add_wound_texture(graph, "", maps, today);
-    const engine::ReadbackId ids[] = {graph.readback("color", texture.color), graph.readback("state", texture.state), graph.readback("relief", texture.relief)};
+    const engine::ReadbackId ids[] = {graph.readback("color", texture.color),
+                                      graph.readback("state", texture.state),
+                                      graph.readback("relief", texture.relief)};
     const engine::FrameResult frame = executor.run(graph);
     Maps result;
     cv::Mat4f* const targets[] = {&result.color, &result.state, &result.relief};
@@ -80,10 +85,10 @@ void expect_areas(const char* name, const wound::PreparedWound& wound)
     const passes::WoundMaps maps = passes::upload_wound(gpu::device(), wound.patch);
     engine::Executor executor(gpu::device(), gpu::shaders());
     const double initial = cv::sum(wound.patch.mask)[0];
-    const std::pair<double, double> ratios[] = {{.9, .9}, {.6, .6}, {.4, .4}, {.2, .2}, {.1, .1}, {.05, .05}, // contraction
-                                                {.6, .772}, {.05, .4585}};                                    // a face: .43 + .57 r
-    for (const auto& [r, border] : ratios)
-    {
+    const std::pair<double, double> ratios[] = {{.9, .9},   {.6, .6},    {.4, .4},
+                                                {.2, .2},   {.1, .1},    {.05, .05}, // contraction
+                                                {.6, .772}, {.05, .4585}};           // a face: .43 + .57 r
+    for (const auto& [r, border] : ratios) {
         const cv::Scalar covered = cv::sum(draw(executor, maps, day_with(wound, r, border)).state);
         const double of_bed = covered[2] / initial, of_border = covered[3] / initial;
         EXPECT_NEAR(of_bed / r, 1, .02) << name << ", r = " << r << ", border " << border;
@@ -113,9 +118,9 @@ double largest_error(const wound::Warp& warp, engine::Executor& executor)
     const cv::Mat2d reference = wound::backward_map(warp, side);
     double largest = 0;
     for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-        {
-            const double error = std::hypot(shader(y, x)[0] - reference(y, x)[0], shader(y, x)[1] - reference(y, x)[1]);
+        for (int x = 0; x < side; ++x) {
+            const double error =
+                std::hypot(shader(y, x)[0] - reference(y, x)[0], shader(y, x)[1] - reference(y, x)[1]);
             largest = std::isfinite(error) ? std::max(largest, error) : INFINITY;
         }
     return largest * 256;
@@ -129,26 +134,25 @@ TEST_F(WoundTextureOnGpu, WarpedMaskHasTheAreaThatWasAskedFor)
     expect_areas("irregular", prepared(irregular_photograph()));
 }
 
-// Single precision against double. Largest errors found on lavapipe, in texels of 512: radial .0001, grid .0001, dense .1 (one
-// thin plate over the whole way has huge weights that cancel), composed .001. The bounds leave room for a device that rounds
-// logarithms less well.
+// Single precision against double. Largest errors found on lavapipe, in texels of 512: radial .0001, grid
+// .0001, dense .1 (one thin plate over the whole way has huge weights that cancel), composed .001. The bounds
+// leave room for a device that rounds logarithms less well.
 TEST_F(WoundTextureOnGpu, EveryRungOfTheWarpEqualsTheReference)
 {
-    const std::map<WarpRung, double> bounds{{WarpRung::radial, .001}, {WarpRung::grid, .001}, {WarpRung::dense, .5}, {WarpRung::composed, .01}};
+    const std::map<WarpRung, double> bounds{
+        {WarpRung::radial, .001}, {WarpRung::grid, .001}, {WarpRung::dense, .5}, {WarpRung::composed, .01}};
     engine::Executor executor(gpu::device(), gpu::shaders());
-    for (const wound::Photograph& photograph : {wound::synthesize({}), irregular_photograph()})
-    {
+    for (const wound::Photograph& photograph : {wound::synthesize({}), irregular_photograph()}) {
         const wound::PreparedWound wound = prepared(photograph, 256);
-        for (const WarpRung rung : rungs)
-        {
+        for (const WarpRung rung : rungs) {
             double largest = 0;
-            for (const double r : {1.4, 1., .5, .05, 0.})
-            {
+            for (const double r : {1.4, 1., .5, .05, 0.}) {
                 const double error = largest_error(wound::make_warp(wound.flow, r, rung), executor);
                 EXPECT_LT(error, bounds.at(rung)) << "rung " << int(rung) << ", r = " << r;
                 largest = std::max(largest, error);
             }
-            RecordProperty(fmt::format("largest_error_in_texels_rung_{}", int(rung)), std::to_string(largest));
+            RecordProperty(fmt::format("largest_error_in_texels_rung_{}", int(rung)),
+                           std::to_string(largest));
         }
     }
 }
@@ -161,19 +165,21 @@ TEST_F(WoundTextureOnGpu, NoDayGivesAnythingButColorsAndShares)
     std::vector<std::pair<std::string, wound::WoundDay>> days;
     for (const WarpRung rung : rungs)
         for (const double r : {0.0, .01, 1.4})
-            days.emplace_back(fmt::format("r = {}, rung {}", r, int(rung)), day_with(wound, r, .43 + .57 * r, rung));
+            days.emplace_back(fmt::format("r = {}, rung {}", r, int(rung)),
+                              day_with(wound, r, .43 + .57 * r, rung));
     for (const double day : {0.0, 1e-3, 30.0, 1e9})
         for (const wound::HealingModel model : {wound::HealingModel::contraction, wound::HealingModel::face})
-            for (const auto& [delta, theta] : {std::pair(0.0, 0.0), {.02822, 0.0}, {.02822, -1.0}, {10.0, 1.0}})
-            {
+            for (const auto& [delta, theta] :
+                 {std::pair(0.0, 0.0), {.02822, 0.0}, {.02822, -1.0}, {10.0, 1.0}}) {
                 wound::Healing healing;
                 healing.curve.delta = delta;
                 healing.curve.theta = theta;
                 healing.model = model;
-                days.emplace_back(fmt::format("day {}, model {}, delta {}, theta {}", day, int(model), delta, theta), wound::wound_at(wound, healing, day));
+                days.emplace_back(
+                    fmt::format("day {}, model {}, delta {}, theta {}", day, int(model), delta, theta),
+                    wound::wound_at(wound, healing, day));
             }
-    for (const auto& [name, today] : days)
-    {
+    for (const auto& [name, today] : days) {
         const Maps drawn = draw(executor, maps, today);
         for (const cv::Mat4f& map : {drawn.color, drawn.state, drawn.relief})
             ASSERT_FALSE(engine::first_non_finite(map)) << name;
@@ -181,9 +187,11 @@ TEST_F(WoundTextureOnGpu, NoDayGivesAnythingButColorsAndShares)
         cv::split(drawn.color, color);
         cv::split(drawn.state, state);
         for (const cv::Mat1f& channel : color)
-            ASSERT_TRUE(cv::checkRange(channel, true, nullptr, 0, 1.001)) << name << ": a colour or the opacity leaves 0..1";
+            ASSERT_TRUE(cv::checkRange(channel, true, nullptr, 0, 1.001))
+                << name << ": a colour or the opacity leaves 0..1";
         for (int share : {1, 2, 3})
-            ASSERT_TRUE(cv::checkRange(state[share], true, nullptr, 0, 1.001)) << name << ": a share leaves 0..1, channel " << share;
+            ASSERT_TRUE(cv::checkRange(state[share], true, nullptr, 0, 1.001))
+                << name << ": a share leaves 0..1, channel " << share;
     }
 }
 
@@ -192,8 +200,7 @@ TEST_F(WoundTextureOnGpu, DayZeroIsThePatchItself)
     const wound::PreparedWound wound = prepared(wound::synthesize({}));
     const passes::WoundMaps maps = passes::upload_wound(gpu::device(), wound.patch);
     engine::Executor executor(gpu::device(), gpu::shaders());
-    for (const wound::HealingModel model : {wound::HealingModel::contraction, wound::HealingModel::face})
-    {
+    for (const wound::HealingModel model : {wound::HealingModel::contraction, wound::HealingModel::face}) {
         wound::Healing healing;
         healing.model = model;
         const Maps drawn = draw(executor, maps, wound::wound_at(wound, healing, 0));
@@ -201,7 +208,8 @@ TEST_F(WoundTextureOnGpu, DayZeroIsThePatchItself)
         cv::Mat1f bed;
         cv::cvtColor(drawn.color, color, cv::COLOR_RGBA2RGB);
         cv::extractChannel(drawn.state, bed, 2);
-        EXPECT_LT(cv::norm(color, wound.patch.color, cv::NORM_INF), .002); // two half floats and a warp by nothing
+        EXPECT_LT(cv::norm(color, wound.patch.color, cv::NORM_INF),
+                  .002); // two half floats and a warp by nothing
         EXPECT_LT(cv::norm(bed, wound.patch.mask, cv::NORM_INF), .002);
     }
 }

@@ -9,7 +9,10 @@ namespace wound {
 
 namespace {
 
-float encode(float linear) { return linear_to_srgb(std::clamp(linear, 0.F, 1.F)); }
+float encode(float linear)
+{
+    return linear_to_srgb(std::clamp(linear, 0.F, 1.F));
+}
 
 } // namespace
 

@@ -206,14 +206,15 @@ WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day
     result.border_ratio = state.border_ratio;
     result.recovery_ratio = state.recovery_ratio;
     result.depth_scale = state.depth_scale;
-    result.bed_recovery = result.border_recovery = state.recovery_ratio; // the paper's: one r for all of the wound
-    if (healing.model == HealingModel::face)
-    {
+    result.bed_recovery = result.border_recovery =
+        state.recovery_ratio; // the paper's: one r for all of the wound
+    if (healing.model == HealingModel::face) {
         // The open bed stays a wound until new epithelium covers it; that is pink, and a quarter of the
         // way to skin when the wound closes.
         result.bed_recovery = 0.12 * state.recovery_ratio;
         result.border_recovery = 0.25 * state.recovery_ratio;
-        if (const ScarState scar = scar_at(healing, day); scar.months > 0) // the rest of the way goes with the scar's redness
+        if (const ScarState scar = scar_at(healing, day);
+            scar.months > 0) // the rest of the way goes with the scar's redness
             result.border_recovery = 1 - (1 - result.border_recovery) * scar.redness / scar_after(0).redness;
         result.in_phases = true;
         result.phase = phase_at(day, closure_day(healing.curve));

@@ -1,4 +1,5 @@
-// A wound from photograph to any day: what is prepared once, and what it is on a given day. Plain C++, double precision.
+// A wound from photograph to any day: what is prepared once, and what it is on a given day. Plain C++, double
+// precision.
 //
 //   Photograph -> prepare() -> PreparedWound -> match_to_skin() -> wound_at(day) -> WoundDay
 // Patch coordinates are defined in wound/patch.hpp.
@@ -32,15 +33,17 @@ struct WoundDay
 {
     double day = 0;
     double unhealed_ratio = 1; // area of the open bed / initial area
-    double border_ratio = 1;   // area inside the outer border / initial area; equals unhealed_ratio for pure contraction
-    double recovery_ratio = 0; // 1 - unhealed_ratio, clamped to 0..1
+    double border_ratio =
+        1; // area inside the outer border / initial area; equals unhealed_ratio for pure contraction
+    double recovery_ratio = 0;  // 1 - unhealed_ratio, clamped to 0..1
     double bed_recovery = 0;    // r of eq. (4) in the open bed
     double border_recovery = 0; // r of eq. (4) on new epithelium and in the rim
-    double depth_scale = 1;    // sqrt(unhealed_ratio), at most 1
-    bool in_phases = false;     // the bed's colour passes through the phases of healing, not only through eq. (4)
+    double depth_scale = 1;     // sqrt(unhealed_ratio), at most 1
+    bool in_phases = false; // the bed's colour passes through the phases of healing, not only through eq. (4)
     Phase phase;
-    double bed_presence = 1;   // 1 until closure, then 0 by the time the bed is a texel wide: the last of it fades
-    ScarState scar;            // the look of what is inside the border and outside the bed
+    double bed_presence =
+        1;          // 1 until closure, then 0 by the time the bed is a texel wide: the last of it fades
+    ScarState scar; // the look of what is inside the border and outside the bed
     Warp border_warp, bed_warp; // backward maps: today's patch coordinates -> day 0's
 };
 
