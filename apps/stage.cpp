@@ -160,7 +160,8 @@ Stage::Props Stage::prepare(const Scene& scene)
 
 Stage::Stage(const engine::Device& device, const Scene& scene, Props props)
     : scene_(scene), props_(std::move(props)),
-      head_(passes::upload_head(device, *props_.head, props_.anchors))
+      head_(passes::with_wounds(device, passes::upload_head(device, *props_.head), *props_.head,
+                                props_.anchors))
 {
     const double last_day = std::max(1.0, *std::ranges::max_element(scene_.days));
     for (std::size_t i = 0; i < props_.wounds.size(); ++i) {

@@ -70,6 +70,7 @@ struct Executor::Frame
 {
     explicit Frame(const Device& device) : slot(device) {}
 
+    std::vector<std::shared_ptr<const void>> kept; // Graph::keep; the slot, destroyed first, waits
     FrameSlot slot;
     std::uint64_t number = 0;
     Clock::time_point start;
@@ -102,6 +103,7 @@ FrameToken Executor::submit(const Graph& graph)
 
     Frame& frame = *frames[submitted % frames.size()];
     frame.slot.wait();
+    frame.kept = graph.kept; // those of the frame that used the slot last can go
     frame.result = {};
     frame.result.plan = schedule(graph, memory);
     frame.start = start;
@@ -123,6 +125,7 @@ FrameResult Executor::finish(FrameToken token)
         throw std::logic_error("Executor::finish: this frame's results are gone");
     frame.slot.wait();
     FrameResult result = std::move(frame.result);
+    frame.kept.clear();
     frame.number = 0;
     if (frame.slot.has_timestamps()) {
         std::size_t tick = 0;
@@ -142,6 +145,13 @@ FrameResult Executor::finish(FrameToken token)
     }
     result.frame_ms = milliseconds_since(frame.start);
     return result;
+}
+
+bool Executor::up_to_date(const Graph& graph) const
+{
+    const Plan plan = schedule(graph, memory);
+    return std::ranges::none_of(plan.passes,
+                                [](const PassPlan& pass) { return pass.state == PassState::Run; });
 }
 
 VkImage Executor::presented(std::string_view image_name) const

@@ -75,6 +75,11 @@ class Executor
     /// Must be asked for before the second submit after this one.
     FrameResult finish(FrameToken token);
 
+    /// Whether the frame would show what is there already: no pass of it would run. Asked before submitting,
+    /// so that a window in which nothing changes draws nothing. A pass that asks to run every frame is never
+    /// up to date. Throws std::logic_error as run() does.
+    bool up_to_date(const Graph& graph) const;
+
     /// The image a graph presented last, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
     /// for commands submitted to the same queue.
     VkImage presented(std::string_view image_name) const;

@@ -108,7 +108,8 @@ engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, con
     else
         pass.color(radiance, {0, 0, 0, 0});
     pass.depth(graph.image("depth", {target.width, target.height, VK_FORMAT_D32_SFLOAT, target.samples}));
-    pass.every_frame();
+    if (input.every_frame)
+        pass.every_frame();
 
     pass.constant("LIGHTS", std::uint32_t(input.lights.size()));
     pass.constant("LAMBERT", shading.lambert);

@@ -54,9 +54,10 @@ struct ForwardInput
     std::span<const wound::Light> lights; // at most shared::MAX_LIGHTS; the first casts the shadow
     std::optional<shared::Shadow> shadow; // none: no shadow is cast
     engine::ImageId shadow_depth;         // used with `shadow`
+    bool every_frame = true;              // run even when nothing has changed
 };
 
-/// Adds one raster pass that runs every frame; the result is linear radiance, RGBA16F, alpha 1 on the head
+/// Adds one raster pass; the result is linear radiance, RGBA16F, alpha 1 on the head
 /// and 0 beside it. `samples` is 1 or 4; with 4 the result is resolved.
 engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, const shared::View& view,
                             const Shading& shading, const engine::ImageDesc& target);

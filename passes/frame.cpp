@@ -21,11 +21,12 @@ FrameImages add_frame(engine::Graph& graph, const FrameInput& input)
                           input.today[i].phase.pink, input.today[i].in_phases});
         images.wounds.push_back(texture);
     }
-    ForwardInput forward{input.head, placed, input.lights, {}, {}};
+    ForwardInput forward{input.head, placed, input.lights, {}, {}, input.every_frame};
     if (input.shading.shadow && !input.lights.empty())
         forward.shadow = fit_shadow(input.lights.front(), input.head.min, input.head.max);
     if (forward.shadow)
-        forward.shadow_depth = add_shadow(graph, *forward.shadow, *input.head.mesh, input.head.casters);
+        forward.shadow_depth =
+            add_shadow(graph, *forward.shadow, *input.head.caster_mesh, input.head.casters);
     const engine::ImageId radiance =
         add_forward(graph, forward, make_view(input.camera, input.head, double(input.width) / input.height),
                     input.shading, {input.width, input.height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});

@@ -32,6 +32,7 @@ struct FrameInput
     wound::Rung reflectance = wound::Rung::TwoStream;
     std::uint32_t width = 1280, height = 720, samples = 1;
     float exposure = 1;
+    bool every_frame = true; // draw the head even when nothing has changed, as those who measure it want
 };
 
 struct FrameImages
