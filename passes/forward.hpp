@@ -26,6 +26,7 @@ struct Shading
     bool lambert = true, translucency = true, ward = true;
     bool normal_map = true, shadow = true;
     glm::vec3 ambient{0}; // linear radiance of the surroundings; 0 leaves the term out
+    bool operator==(const Shading&) const = default;
 };
 
 struct Camera

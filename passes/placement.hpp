@@ -27,6 +27,7 @@ FaceFrame find_face(const engine::Model& head);
 struct FacePoint
 {
     double x = 0, y = 0;
+    bool operator==(const FacePoint&) const = default;
 };
 using Place = std::variant<std::string, FacePoint, glm::dvec3>;
 

@@ -14,6 +14,7 @@ struct SegmentationHints
     std::optional<cv::Point>
         seed; // pixel inside the wound; default: the middle of the rectangle or the photograph
     std::optional<cv::Rect> rect; // pixels; the wound lies inside, near its borders is skin
+    bool operator==(const SegmentationHints&) const = default;
 };
 
 /// 255 in the wound, of the photograph's size. `srgb` in RGB order; near-black surroundings of a cropped
