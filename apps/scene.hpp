@@ -12,13 +12,15 @@
 #include "passes/placement.hpp"
 #include "wound/healing.hpp"
 #include "wound/reflectance.hpp"
+#include "wound/segmentation.hpp"
 
 namespace app {
 
 struct WoundScene
 {
-    std::filesystem::path photo; // empty: the default wound, generated from `kind` and `seed`
-    std::filesystem::path mask;  // empty: segmented
+    std::filesystem::path photo;           // empty: the default wound, generated from `kind` and `seed`
+    std::filesystem::path mask;            // empty: segmented
+    wound::SegmentationHints segmentation; // without a mask
     std::string kind = "abrasion";
     std::uint32_t seed = 3;
     passes::Place place = std::string("cheek");

@@ -7,6 +7,7 @@
 #include "apps/bake.hpp"
 #include "apps/bake_head.hpp"
 #include "engine/image_io.hpp"
+#include "shaders/shared/shading.h"
 #include "wound/input_error.hpp"
 #include "wound/prepare.hpp"
 #include "wound/skin_match.hpp"
@@ -79,8 +80,7 @@ wound::Photograph read_photograph(const WoundScene& scene)
     }
     wound::Photograph photograph{engine::read_rgb(scene.photo), {}};
     if (!scene.mask.empty())
-        photograph.mask =
-            wound::checked_mask(engine::read_mask(scene.mask), photograph.srgb.size(), scene.mask.string());
+        photograph.mask = engine::read_mask(scene.mask);
     return photograph;
 }
 
@@ -89,14 +89,72 @@ std::string name_of(const WoundScene& wound, std::size_t index)
     return wound.photo.empty() ? fmt::format("wound {}", index + 1) : wound.photo.string();
 }
 
-wound::PreparedWound prepare_wound(const WoundScene& scene, const passes::FacePoint& face,
-                                   const std::string& name)
+wound::PreparedWound prepare_wound(const WoundScene& scene, const wound::WoundPart& part,
+                                   const passes::FacePoint& face, const std::string& name)
 {
     wound::Preparation preparation;
     preparation.where = name;
-    preparation.width_mm = scene.width_mm;
+    preparation.width_mm = part.width_mm;
+    preparation.hints = scene.segmentation;
     preparation.depth.tissue = scaled(wound::tissue_thickness(tissue_coordinates(face)), scene.depth_factor);
-    return wound::prepare(read_photograph(scene), preparation);
+    return wound::prepare(part.photograph, preparation);
+}
+
+/// What is made of a photograph while the head is being read: its wounds and, where the place on the face is
+/// known without the head, the largest one prepared.
+struct EarlyWound
+{
+    std::shared_future<std::vector<wound::WoundPart>> parts;
+    std::shared_future<wound::PreparedWound> largest; // invalid where the place is not known
+
+    EarlyWound(const WoundScene& scene, const std::string& name)
+        : parts(std::async(std::launch::async, [scene, name] {
+              return wound::separate(read_photograph(scene), scene.width_mm,
+                                     scene.mask.empty() ? name : scene.mask.string());
+          }))
+    {
+        if (const auto face = passes::known_face_point(scene.place))
+            largest = std::async(std::launch::async, [scene, name, face = *face, ready = parts] {
+                return prepare_wound(scene, ready.get().front(), face, name);
+            });
+    }
+};
+
+/// Places the wounds of one photograph as they lie in it, and starts what is left to prepare of them.
+void place_wound(Stage::Props& props, const WoundScene& scene, std::size_t index, const EarlyWound& early)
+{
+    const std::string name = name_of(scene, index);
+    const passes::Anchor first =
+        passes::anchor_wound(*props.head, props.face, scene.place, scene.width_mm / wound::kWoundShare,
+                             scene.roll_deg, name + ": at");
+    const std::size_t count = scene.mask.empty() ? 1 : early.parts.get().size(); // no need to wait for one
+    if (props.wounds.size() + count > std::size_t(shared::MAX_WOUNDS))
+        throw cicatrix::InputError(
+            name,
+            fmt::format("its mask has {} components, which makes more than {} wounds in the scene", count,
+                        shared::MAX_WOUNDS),
+            "leave wounds out of the scene, or components out of the mask");
+    const std::uint32_t skin = passes::skin_material(*props.head);
+    for (std::size_t i = 0; i < count; ++i) {
+        passes::Anchor anchor = first;
+        if (i > 0) {
+            const wound::WoundPart& part = early.parts.get()[i];
+            anchor = passes::anchor_beside(
+                *props.head, props.face, first, 1e-3 * glm::dvec2(part.offset_mm.x, part.offset_mm.y),
+                part.width_mm / wound::kWoundShare, fmt::format("{}: component {} of the mask", name, i + 1));
+        }
+        props.scene_wounds.push_back(index);
+        props.anchors.push_back(anchor);
+        props.wounds.push_back(std::async(std::launch::async, [=, head = props.head] {
+            wound::PreparedWound prepared =
+                i == 0 && early.largest.valid()
+                    ? early.largest.get()
+                    : prepare_wound(scene, early.parts.get()[i], anchor.face, name);
+            prepared.patch = wound::match_to_skin(
+                prepared.patch, passes::skin_under(*head, skin, anchor, prepared.patch.color.cols));
+            return prepared;
+        }));
+    }
 }
 
 std::shared_ptr<const engine::Model> read_head(const Scene& scene, std::vector<std::string>& notes)
@@ -117,16 +175,9 @@ std::shared_ptr<const engine::Model> read_head(const Scene& scene, std::vector<s
 
 Stage::Props Stage::prepare(const Scene& scene)
 {
-    // Where the place on the face is known without the head, a photograph is prepared while the head is being
-    // read.
-    std::vector<std::future<wound::PreparedWound>> early;
-    for (std::size_t i = 0; i < scene.wounds.size(); ++i) {
-        const WoundScene& wound = scene.wounds[i];
-        if (const auto face = passes::known_face_point(wound.place))
-            early.push_back(std::async(std::launch::async, prepare_wound, wound, *face, name_of(wound, i)));
-        else
-            early.emplace_back();
-    }
+    std::vector<EarlyWound> early;
+    for (std::size_t i = 0; i < scene.wounds.size(); ++i)
+        early.emplace_back(scene.wounds[i], name_of(scene.wounds[i], i));
 
     Props props;
     props.head = read_head(scene, props.notes);
@@ -139,22 +190,8 @@ Stage::Props Stage::prepare(const Scene& scene)
                                               "{} layers and channels: colours of the wound are off, "
                                               "often green (docs/optics.md)",
                                               outside, table->layers.size() * table->channels()));
-    const std::uint32_t skin = passes::skin_material(*props.head);
-    for (std::size_t i = 0; i < scene.wounds.size(); ++i) {
-        const WoundScene& wound = scene.wounds[i];
-        const passes::Anchor anchor =
-            passes::anchor_wound(*props.head, props.face, wound.place, wound.width_mm / wound::kWoundShare,
-                                 wound.roll_deg, name_of(wound, i) + ": at");
-        props.anchors.push_back(anchor);
-        props.wounds.push_back(std::async(
-            std::launch::async, [=, head = props.head, ready = early[i].share(), name = name_of(wound, i)] {
-                wound::PreparedWound prepared =
-                    ready.valid() ? ready.get() : prepare_wound(wound, anchor.face, name);
-                prepared.patch = wound::match_to_skin(
-                    prepared.patch, passes::skin_under(*head, skin, anchor, prepared.patch.color.cols));
-                return prepared;
-            }));
-    }
+    for (std::size_t i = 0; i < scene.wounds.size(); ++i)
+        place_wound(props, scene.wounds[i], i, early[i]);
     return props;
 }
 
@@ -165,8 +202,8 @@ Stage::Stage(const engine::Device& device, const Scene& scene, Props props)
     const double last_day = std::max(1.0, *std::ranges::max_element(scene_.days));
     for (std::size_t i = 0; i < props_.wounds.size(); ++i) {
         prepared_.push_back(props_.wounds[i].get());
-        const passes::LutRows rows =
-            passes::lut_rows(props_.tissue, scene_.wounds[i].healing, table_rows, last_day);
+        const passes::LutRows rows = passes::lut_rows(
+            props_.tissue, scene_.wounds[props_.scene_wounds[i]].healing, table_rows, last_day);
         wounds_.push_back({props_.anchors[i], passes::upload_wound(device, prepared_[i].patch),
                            passes::lut_tissue(rows.open, last_day)});
     }
@@ -192,7 +229,7 @@ std::vector<wound::WoundDay> Stage::wounds_on(double day) const
 {
     std::vector<wound::WoundDay> today;
     for (std::size_t i = 0; i < prepared_.size(); ++i)
-        today.push_back(wound::wound_at(prepared_[i], scene_.wounds[i].healing, day));
+        today.push_back(wound::wound_at(prepared_[i], scene_.wounds[props_.scene_wounds[i]].healing, day));
     return today;
 }
 

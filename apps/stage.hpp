@@ -24,6 +24,8 @@ class Stage
     {
         std::shared_ptr<const engine::Model> head;
         passes::FaceFrame face;
+        // One entry per placed wound: a mask of several components makes several of one of the scene's.
+        std::vector<std::size_t> scene_wounds; // which of the scene's it comes from
         std::vector<passes::Anchor> anchors;
         std::vector<std::future<wound::PreparedWound>> wounds; // being matched to the skin they lie on
         wound::HealingTissue tissue;
@@ -35,7 +37,9 @@ class Stage
 
     const Scene& scene() const { return scene_; }
     const std::vector<std::string>& notes() const { return props_.notes; }
+    /// The placed wounds, and for each the index of the scene's wound that it is (a component) of.
     const std::vector<wound::PreparedWound>& prepared() const { return prepared_; }
+    const std::vector<std::size_t>& scene_wounds() const { return props_.scene_wounds; }
     std::vector<wound::WoundDay> wounds_on(double day) const;
     /// From the next frame on. Throws cicatrix::InputError and keeps the old ones when one is out of range.
     void set_lights(const std::vector<LightScene>& lights);
