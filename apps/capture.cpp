@@ -185,7 +185,7 @@ class Capture
         const engine::ReadbackId picture = graph.readback("picture", images.picture);
         std::vector<engine::ReadbackId> states;
         for (const passes::WoundTexture& wound : images.wounds)
-            states.push_back(graph.readback("state", wound.state));
+            states.push_back(graph.readback(fmt::format("state {}", states.size() + 1), wound.state));
         const engine::FrameResult frame = executor.run(graph);
 
         const std::string file = picture_name(day, ++repetitions_[day]);
@@ -205,6 +205,8 @@ class Capture
         }
         if (!today.empty())
             record.update(record["wounds"][0]); // the first wound's numbers also stand at the top
+        for (std::size_t i = 0; i < today.size(); ++i)
+            record["wounds"][i]["scene_wound"] = stage.scene_wounds()[i]; // index into the scene's wounds
         days_.push_back(std::move(record));
         cells_.push_back({rgb, close_up(executor, stage, today), sheet_label(day, today)});
     }

@@ -12,13 +12,15 @@
 #include "passes/placement.hpp"
 #include "wound/healing.hpp"
 #include "wound/reflectance.hpp"
+#include "wound/segmentation.hpp"
 
 namespace app {
 
 struct WoundScene
 {
-    std::filesystem::path photo; // empty: the default wound, generated from `kind` and `seed`
-    std::filesystem::path mask;  // empty: segmented
+    std::filesystem::path photo;           // empty: the default wound, generated from `kind` and `seed`
+    std::filesystem::path mask;            // empty: segmented
+    wound::SegmentationHints segmentation; // without a mask
     std::string kind = "abrasion";
     std::uint32_t seed = 3;
     passes::Place place = std::string("cheek");
@@ -26,6 +28,7 @@ struct WoundScene
     double roll_deg = 0;     // counter-clockwise as the viewer sees it
     double depth_factor = 1; // scales the tissue's depth
     wound::Healing healing;
+    bool operator==(const WoundScene&) const = default;
 };
 
 /// A place around the face's middle: 0, 0 is in front; positive azimuth towards the viewer's right, positive
@@ -33,6 +36,7 @@ struct WoundScene
 struct Direction
 {
     double azimuth_deg = 0, elevation_deg = 0;
+    bool operator==(const Direction&) const = default;
 };
 
 struct LightScene
@@ -43,6 +47,7 @@ struct LightScene
     bool falloff = true;                  // inverse square; eq. (8) has none
     std::array<double, 3> color{1, 1, 1}; // linear
     double intensity = 1;                 // irradiance / pi at the face's middle
+    bool operator==(const LightScene&) const = default;
 };
 
 struct CameraScene
@@ -50,6 +55,7 @@ struct CameraScene
     Direction from{18, 2};
     double distance_m = 0; // from the face's middle; 0: such that the head fills the picture
     double fov_deg = 20;   // vertical
+    bool operator==(const CameraScene&) const = default;
 };
 
 /// The mended equations with coefficients for skin, and everything as the paper prints it.
@@ -70,6 +76,7 @@ struct Scene
     std::uint32_t samples = 1; // 1 or 4
     double exposure_stops = 0; // each doubles the light
     std::vector<double> days{0, 3, 6, 9, 12, 15, 18, 21, 24, 27, 30};
+    bool operator==(const Scene&) const = default;
 };
 
 /// Reads a scene; files inside are relative to the scene's folder. Throws cicatrix::InputError naming file

@@ -37,10 +37,10 @@ std::optional<double> hit(const std::array<glm::vec3, 3>& t, const glm::dvec3& o
     return glm::dot(ac, q) / det;
 }
 
-/// The first skin that a viewer in front of the face sees at (x, y).
-std::optional<glm::dvec3> seen_from_the_front(const engine::Model& head, double x, double y)
+/// The first skin that a ray meets.
+std::optional<glm::dvec3> first_skin(const engine::Model& head, const glm::dvec3& origin,
+                                     const glm::dvec3& direction)
 {
-    const glm::dvec3 origin(x, y, double(head.max.z) + 1.0), direction(0, 0, -1);
     std::optional<double> nearest;
     for (std::size_t i = 0; i + 2 < head.indices.size(); i += 3)
         if (const auto distance = hit(corners_of(head, i), origin, direction); distance && *distance >= 0)
@@ -48,6 +48,12 @@ std::optional<glm::dvec3> seen_from_the_front(const engine::Model& head, double 
     if (!nearest)
         return std::nullopt;
     return origin + *nearest * direction;
+}
+
+/// The first skin that a viewer in front of the face sees at (x, y).
+std::optional<glm::dvec3> seen_from_the_front(const engine::Model& head, double x, double y)
+{
+    return first_skin(head, {x, y, double(head.max.z) + 1.0}, {0, 0, -1});
 }
 
 glm::dvec3 nearest_vertex(const engine::Model& head, const glm::dvec3& point)
@@ -96,6 +102,14 @@ cv::Vec3f linear_albedo(const engine::Material& material, const glm::dvec2& uv)
         material.base_color(wrap(uv.y, material.base_color.rows), wrap(uv.x, material.base_color.cols));
     const auto linear = [&](int channel) { return wound::srgb_to_linear(texel[channel] / 255.0f); };
     return {linear(0) * factor.x, linear(1) * factor.y, linear(2) * factor.z};
+}
+
+/// The face coordinates and the normal of an anchor whose centre and size are known.
+void lay_on_skin(Anchor& anchor, const engine::Model& head, const FaceFrame& face)
+{
+    anchor.face = {(anchor.centre.x - face.nose_tip.x) / face.unit_m,
+                   (anchor.centre.y - face.nose_tip.y) / face.unit_m};
+    anchor.normal = mean_normal(head, anchor.centre, std::max(0.7 * anchor.half_width_m, 0.006));
 }
 
 } // namespace
@@ -157,15 +171,35 @@ Anchor anchor_wound(const engine::Model& head, const FaceFrame& face, const Plac
                                        "stay within about -0.5 to 0.5 across and -0.7 to 0.9 up");
         anchor.centre = *seen;
     }
-    anchor.face = {(anchor.centre.x - face.nose_tip.x) / face.unit_m,
-                   (anchor.centre.y - face.nose_tip.y) / face.unit_m};
-    anchor.normal = mean_normal(head, anchor.centre, std::max(0.7 * anchor.half_width_m, 0.006));
+    lay_on_skin(anchor, head, face);
     const glm::dvec3 up = std::abs(anchor.normal.y) > 0.95 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
     const glm::dvec3 level = glm::normalize(glm::cross(up, anchor.normal)); // towards the viewer's right
     const glm::dvec3 below = glm::cross(level, anchor.normal);              // and down the face
     const double roll = glm::radians(roll_deg);
     anchor.right = std::cos(roll) * level - std::sin(roll) * below;
     anchor.down = std::sin(roll) * level + std::cos(roll) * below;
+    return anchor;
+}
+
+Anchor anchor_beside(const engine::Model& head, const FaceFrame& face, const Anchor& first,
+                     const glm::dvec2& offset_m, double patch_width_mm, const std::string& where)
+{
+    // From a little above the first one's plane: from further away another part of the head may come between.
+    const double distance = glm::length(offset_m), above = std::max(distance, first.half_width_m);
+    const glm::dvec3 origin =
+        first.centre + offset_m.x * first.right + offset_m.y * first.down + above * first.normal;
+    const auto found = first_skin(head, origin, -first.normal);
+    if (!found || glm::distance(*found, origin) > 2.5 * above)
+        throw cicatrix::InputError(
+            where,
+            fmt::format("lies {:.0f} mm beside the largest one, where there is no skin", distance * 1e3),
+            "give a smaller width_mm, another roll_deg or a place further from the head's edge");
+    Anchor anchor;
+    anchor.half_width_m = patch_width_mm * 0.5e-3;
+    anchor.centre = *found;
+    lay_on_skin(anchor, head, face);
+    anchor.down = glm::normalize(glm::cross(first.right, anchor.normal));
+    anchor.right = glm::cross(anchor.normal, anchor.down);
     return anchor;
 }
 

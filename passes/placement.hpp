@@ -53,6 +53,7 @@ struct Anchor
     glm::dvec3 centre{0.0}, right{1, 0, 0}, down{0, -1, 0}, normal{0, 0, 1};
     double half_width_m = 0.02; // of the patch
     FacePoint face;             // the centre in face coordinates
+    bool operator==(const Anchor&) const = default;
 };
 
 /// Puts a patch of `patch_width_mm` at `place`, turned by `roll_deg` counter-clockwise as the viewer sees it.
@@ -60,6 +61,12 @@ struct Anchor
 /// of it. Throws cicatrix::InputError (naming `where`) when the place is not on the head.
 Anchor anchor_wound(const engine::Model& head, const FaceFrame& face, const Place& place,
                     double patch_width_mm, double roll_deg, const std::string& where);
+
+/// Puts a patch where it lies beside `first` in one photograph: `offset_m` (right, down) from the first's
+/// centre, projected along its normal onto the head, and turned as the first. Throws cicatrix::InputError
+/// (naming `where`) when there is no skin.
+Anchor anchor_beside(const engine::Model& head, const FaceFrame& face, const Anchor& first,
+                     const glm::dvec2& offset_m, double patch_width_mm, const std::string& where);
 
 /// True when the triangle can receive the anchor's projection: it overlaps the patch's box and faces it.
 bool receives(const Anchor& anchor, const std::array<glm::vec3, 3>& corners);
