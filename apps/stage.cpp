@@ -252,8 +252,20 @@ passes::LutTissue Stage::lut_of(const Set& set, const wound::Healing& healing) c
         for (std::size_t i = 0; i < set_.wounds.size(); ++i)
             if (set_.placed[set_.scene_wounds[i]].healing == healing)
                 return set_.wounds[i].tissue;
+    return make_lut(set, healing);
+}
+
+passes::LutTissue Stage::make_lut(const Set& set, const wound::Healing& healing)
+{
     const passes::LutRows rows = passes::lut_rows(set.tissue, healing, table_rows, last_day(set.scene));
     return passes::lut_tissue(rows.open, last_day(set.scene));
+}
+
+void Stage::set_tissue(const wound::HealingTissue& tissue)
+{
+    set_.tissue = tissue;
+    for (std::size_t i = 0; i < set_.wounds.size(); ++i)
+        set_.wounds[i].tissue = make_lut(set_, set_.placed[set_.scene_wounds[i]].healing);
 }
 
 std::vector<wound::WoundDay> Stage::wounds_on(double day) const

@@ -67,6 +67,9 @@ class Stage
     bool pending() const { return !set_.complete; }
     /// Waits until everything is shown as the scene has it. Throws as poll().
     void settle();
+    /// Shows the wounds' colours by any tissue, not only by one that a scene can name; until the next
+    /// update() with another tissue.
+    void set_tissue(const wound::HealingTissue& tissue);
 
     /// What the placed wounds are on a day. `today` computes it once for a day and costs nothing when asked
     /// again; it belongs to one thread.
@@ -108,6 +111,7 @@ class Stage
     Set make(const Scene& scene) const;
     void place_wounds(Set& set) const;
     void place_wound(Set& set, std::size_t index, Fit& fit, const std::string& name, bool exact) const;
+    static passes::LutTissue make_lut(const Set& set, const wound::Healing& healing);
     passes::LutTissue lut_of(const Set& set, const wound::Healing& healing) const;
     passes::FrameImages declare(engine::Graph& graph, const passes::FrameInput& input) const;
     void accept(Set set);
