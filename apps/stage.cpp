@@ -75,6 +75,12 @@ void check(const Scene& scene)
 {
     if (scene.days.empty())
         throw cicatrix::InputError("scene: /days", "is empty", "name at least one day");
+    if (scene.wounds.size() > std::size_t(shared::MAX_WOUNDS))
+        throw cicatrix::InputError("scene: /wounds", fmt::format("holds {}", scene.wounds.size()),
+                                   fmt::format("give at most {}", shared::MAX_WOUNDS));
+    if (scene.lights.size() > std::size_t(shared::MAX_LIGHTS))
+        throw cicatrix::InputError("scene: /lights", fmt::format("holds {}", scene.lights.size()),
+                                   fmt::format("give at most {}", shared::MAX_LIGHTS));
     for (std::size_t i = 0; i < scene.wounds.size(); ++i)
         wound::validate(scene.wounds[i].healing, fmt::format("scene: /wounds/{}/healing", i));
 }
@@ -214,14 +220,16 @@ void Stage::place_wounds(Set& set) const
         if (!fit && i < set_.fits.size() && set.placed.size() == set_.placed.size())
             fit = set_.fits[i]; // the old photograph until the new one is ready
         set.fits.push_back(fit);
-        if (fit)
-            place_wound(set, i, *fit, name, exact);
+        if (!fit)
+            continue;
+        if (set.wounds.size() + fit->wounds.size() > std::size_t(shared::MAX_WOUNDS))
+            throw cicatrix::InputError(
+                name,
+                fmt::format("its mask has {} components, which makes more than {} wounds in the scene",
+                            fit->wounds.size(), shared::MAX_WOUNDS),
+                "leave wounds out of the scene, or components out of the mask");
+        place_wound(set, i, *fit, name, exact);
     }
-    if (set.wounds.size() > std::size_t(shared::MAX_WOUNDS))
-        throw cicatrix::InputError(
-            "scene: /wounds", fmt::format("has {} wounds, components of masks counted", set.wounds.size()),
-            fmt::format("leave wounds out of the scene, or components out of a mask, until there are {}",
-                        shared::MAX_WOUNDS));
 }
 
 /// `exact`: the fit is for this wound as it is; otherwise it stands in for one that is being made.

@@ -76,17 +76,18 @@ TEST_F(Frame, RunsAgainOnlyWhatAChangeReaches)
     EXPECT_THAT(ran(studio.draw(4)),
                 UnorderedElementsAre("wound_texture", "wound_relief", "forward", "tonemap"));
 
-    std::vector<app::LightScene> lights = studio.stage.scene().lights;
+    app::Scene scene = studio.stage.scene();
+    std::vector<app::LightScene>& lights = scene.lights;
     lights[0].intensity *= 0.5;
-    studio.stage.set_lights(lights);
+    studio.stage.update(scene);
     EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("forward", "tonemap"));
 
     lights[0].from.azimuth_deg += 10; // the key light: it casts the shadow
-    studio.stage.set_lights(lights);
+    studio.stage.update(scene);
     EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("shadow", "forward", "tonemap"));
 
     lights[1].from.azimuth_deg += 10;
-    studio.stage.set_lights(lights);
+    studio.stage.update(scene);
     EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("forward", "tonemap"));
 
     studio.stage.set_tissue(wound::skin(wound::SkinTone::Dark));

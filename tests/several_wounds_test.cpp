@@ -45,8 +45,7 @@ class SeveralWounds : public gpu::Test
     static std::string refusal(const app::Scene& scene)
     {
         try {
-            for (auto& wound : app::Stage::prepare(scene).wounds)
-                wound.get();
+            const app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
             return "accepted";
         } catch (const cicatrix::InputError& error) {
             return error.what();
@@ -67,23 +66,24 @@ TEST_F(SeveralWounds, LieOnTheHeadAsInThePhotograph)
     scene.wounds[1].place = glm::dvec3(0);
     scene.wounds[1].width_mm = 20; // 59 pixels
     scene.wounds[1].roll_deg = 30;
-    const app::Stage::Props props = app::Stage::prepare(scene);
-    EXPECT_THAT(props.scene_wounds, testing::ElementsAre(0, 1, 1, 1));
-    ASSERT_EQ(props.anchors.size(), 4U);
+    const app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
+    EXPECT_THAT(stage.scene_wounds(), testing::ElementsAre(0, 1, 1, 1));
+    const std::vector<passes::Anchor>& anchors = stage.anchors();
+    ASSERT_EQ(anchors.size(), 4U);
 
     const double mm = 20. / 59, turn = glm::radians(30.);
     const glm::dvec3 right(std::cos(turn), std::sin(turn), 0), down(std::sin(turn), -std::cos(turn), 0);
     const auto expect_near = [](const glm::dvec3& a, const glm::dvec3& b, double off) {
         EXPECT_LT(glm::distance(a, b), off) << a.x << " " << a.y << " " << a.z;
     };
-    expect_near(props.anchors[1].centre, glm::dvec3(0), 1e-9);
-    expect_near(props.anchors[2].centre, 90 * mm * 1e-3 * right, 2e-4);
-    expect_near(props.anchors[3].centre, -90 * mm * 1e-3 * down, 2e-4);
+    expect_near(anchors[1].centre, glm::dvec3(0), 1e-9);
+    expect_near(anchors[2].centre, 90 * mm * 1e-3 * right, 2e-4);
+    expect_near(anchors[3].centre, -90 * mm * 1e-3 * down, 2e-4);
     for (int i : {1, 2, 3}) {
-        expect_near(props.anchors[i].right, right, 1e-6);
-        expect_near(props.anchors[i].down, down, 1e-6);
+        expect_near(anchors[i].right, right, 1e-6);
+        expect_near(anchors[i].down, down, 1e-6);
     }
-    EXPECT_NEAR(props.anchors[2].half_width_m / props.anchors[1].half_width_m, .5, .02);
+    EXPECT_NEAR(anchors[2].half_width_m / anchors[1].half_width_m, .5, .02);
 }
 
 TEST_F(SeveralWounds, FollowTheHeadsSurface)
@@ -91,9 +91,10 @@ TEST_F(SeveralWounds, FollowTheHeadsSurface)
     app::Scene scene = small::scene(small::head());
     scene.wounds = {wound_of({{{110, 150}, 40}, {{200, 150}, 25}})};
     scene.wounds[0].place = passes::FacePoint{.2, -.1};
-    const app::Stage::Props props = app::Stage::prepare(scene);
-    ASSERT_EQ(props.anchors.size(), 2U);
-    const passes::Anchor &first = props.anchors[0], &second = props.anchors[1];
+    const app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
+    const std::vector<passes::Anchor>& anchors = stage.anchors();
+    ASSERT_EQ(anchors.size(), 2U);
+    const passes::Anchor &first = anchors[0], &second = anchors[1];
     EXPECT_GT(second.centre.x, first.centre.x + .015) << "further round the head";
     EXPECT_LT(second.centre.z, first.centre.z - .002);
     EXPECT_GT(second.normal.x, first.normal.x + .05);
@@ -153,9 +154,9 @@ TEST_F(SeveralWounds, HintsOfASceneReachTheSegmentation)
     wound.mask.clear();
     for (const int x : {90, 220}) {
         wound.segmentation.rect = cv::Rect(x - 40, 110, 80, 80);
-        app::Stage::Props props = app::Stage::prepare(scene);
-        ASSERT_EQ(props.wounds.size(), 1U);
-        EXPECT_NEAR(props.wounds[0].get().photo_center.x, x, 3);
+        const auto fits = app::Stage::prepare(scene).wounds();
+        ASSERT_EQ(fits[0]->wounds.size(), 1U);
+        EXPECT_NEAR(fits[0]->wounds[0].prepared.photo_center.x, x, 3);
     }
     wound.segmentation.rect = cv::Rect(250, 250, 80, 80);
     EXPECT_THAT(refusal(scene), AllOf(HasSubstr(wound.photo.string()), HasSubstr("rectangle")));
