@@ -127,7 +127,7 @@ Device::Device(const DeviceOptions& options) : messages(std::make_unique<Message
     try {
         create_instance(options);
         const std::string wanted = options.device.empty() ? environment("CICATRIX_DEVICE") : options.device;
-        physical = choose_device(enumerate_devices(vk_instance), wanted);
+        physical = choose_device(enumerate_devices(vk_instance, options.wishes), wanted);
         create_device(options);
     } catch (...) {
         destroy();
@@ -198,8 +198,8 @@ void Device::create_device(const DeviceOptions& options)
                                   .queueCreateInfoCount = 1,
                                   .pQueueCreateInfos = &queue_info,
                                   .enabledExtensionCount =
-                                      static_cast<std::uint32_t>(options.device_extensions.size()),
-                                  .ppEnabledExtensionNames = options.device_extensions.data()};
+                                      static_cast<std::uint32_t>(options.wishes.extensions.size()),
+                                  .ppEnabledExtensionNames = options.wishes.extensions.data()};
     check(vkCreateDevice(physical.handle, &info, nullptr, &vk_device), "create a Vulkan device");
     vkGetDeviceQueue(vk_device, physical.queue_family, 0, &vk_queue);
 }
