@@ -7,6 +7,7 @@
 #include "apps/bake.hpp"
 #include "apps/bake_head.hpp"
 #include "engine/image_io.hpp"
+#include "wound/drawn_region.hpp"
 #include "wound/input_error.hpp"
 #include "wound/prepare.hpp"
 #include "wound/skin_match.hpp"
@@ -169,6 +170,7 @@ Stage::Stage(const engine::Device& device, const Scene& scene, Props props)
             passes::lut_rows(props_.tissue, scene_.wounds[i].healing, table_rows, last_day);
         wounds_.push_back({props_.anchors[i], passes::upload_wound(device, prepared_[i].patch),
                            passes::lut_tissue(rows.open, last_day)});
+        wounds_.back().maps.region = wound::drawn_region(prepared_[i], scene_.wounds[i].healing);
     }
     set_lights(scene_.lights);
 }
