@@ -222,12 +222,7 @@ void Stage::place_wounds(Set& set) const
         set.fits.push_back(fit);
         if (!fit)
             continue;
-        if (set.wounds.size() + fit->wounds.size() > std::size_t(shared::MAX_WOUNDS))
-            throw cicatrix::InputError(
-                name,
-                fmt::format("its mask has {} components, which makes more than {} wounds in the scene",
-                            fit->wounds.size(), shared::MAX_WOUNDS),
-                "leave wounds out of the scene, or components out of the mask");
+        check_count(set.wounds.size() + fit->wounds.size(), fit->wounds.size(), name);
         place_wound(set, i, *fit, name, exact);
     }
 }
@@ -298,14 +293,23 @@ const std::vector<wound::WoundDay>& Stage::today(double day)
     return wounds_today_;
 }
 
-passes::Camera Stage::camera() const
+passes::Camera Stage::camera(const CameraScene& from) const
 {
     const double half_height = 0.98 * set_.head->face.unit_m; // from the neck to the crown
-    const double distance = set_.scene.camera.distance_m > 0
-                                ? set_.scene.camera.distance_m
-                                : half_height / std::tan(glm::radians(set_.scene.camera.fov_deg) / 2);
+    const double distance =
+        from.distance_m > 0 ? from.distance_m : half_height / std::tan(glm::radians(from.fov_deg) / 2);
     const glm::dvec3 target = face_middle(set_.head->face);
-    return {target + distance * unit_towards(set_.scene.camera.from), target, set_.scene.camera.fov_deg};
+    return {target + distance * unit_towards(from.from), target, from.fov_deg};
+}
+
+glm::dvec3 Stage::head_middle() const
+{
+    return face_middle(set_.head->face) - glm::dvec3(0, 0, 0.3 * set_.head->face.unit_m);
+}
+
+shared::View Stage::view(const passes::Camera& camera, const passes::Canvas& canvas) const
+{
+    return passes::make_view(camera, *set_.wounded, canvas);
 }
 
 passes::Camera Stage::close_up(std::size_t wound) const
@@ -322,20 +326,18 @@ passes::Camera Stage::close_up(std::size_t wound) const
 
 passes::FrameImages Stage::declare(engine::Graph& graph, const std::vector<wound::WoundDay>& today,
                                    const passes::Camera& camera, const passes::Shading& shading,
-                                   std::array<std::uint32_t, 2> size) const
+                                   const passes::Canvas& canvas) const
 {
     passes::FrameInput input{*set_.wounded, set_.wounds, today, set_.lights, camera, shading};
-    input.width = size[0];
-    input.height = size[1];
+    input.canvas = canvas;
     return declare(graph, input);
 }
 
-passes::FrameImages Stage::declare(engine::Graph& graph, double day, std::array<std::uint32_t, 2> size)
+passes::FrameImages Stage::declare(engine::Graph& graph, double day, const passes::Canvas& canvas)
 {
     passes::FrameInput input{*set_.wounded, set_.wounds, today(day),
                              set_.lights,   camera(),    set_.scene.shading};
-    input.width = size[0];
-    input.height = size[1];
+    input.canvas = canvas;
     input.every_frame = false;
     return declare(graph, input);
 }

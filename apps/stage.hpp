@@ -77,17 +77,25 @@ class Stage
     const std::vector<wound::WoundDay>& today(double day);
 
     /// The scene's camera.
-    passes::Camera camera() const;
+    passes::Camera camera() const { return camera(set_.scene.camera); }
+    passes::Camera camera(const CameraScene& from) const;
     /// Looks straight at a placed wound, or at the face's middle in a head without any.
     passes::Camera close_up(std::size_t wound) const;
 
-    /// Declares the frame of one day. `size` is the picture's. The forward pass runs every frame.
+    /// The middle of the skull, about which a camera that goes round the head turns; straight behind the
+    /// middle of the face, at which camera() looks.
+    glm::dvec3 head_middle() const;
+    /// What a camera sees on a canvas.
+    shared::View view(const passes::Camera& camera, const passes::Canvas& canvas) const;
+
+    /// Declares the frame of one day. `canvas`: the picture's size, or one of its tiles. The forward
+    /// pass runs every frame.
     passes::FrameImages declare(engine::Graph& graph, const std::vector<wound::WoundDay>& today,
                                 const passes::Camera& camera, const passes::Shading& shading,
-                                std::array<std::uint32_t, 2> size) const;
+                                const passes::Canvas& canvas) const;
     /// The same by the scene's own camera and shading, for a window: nothing runs when nothing has changed
     /// (engine::Executor::up_to_date).
-    passes::FrameImages declare(engine::Graph& graph, double day, std::array<std::uint32_t, 2> size);
+    passes::FrameImages declare(engine::Graph& graph, double day, const passes::Canvas& canvas);
 
   private:
     /// All that a scene is on the stage. Cheap to copy: what is large is shared and never changed.

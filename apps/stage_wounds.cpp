@@ -9,6 +9,7 @@
 #include "apps/bake_head.hpp"
 #include "engine/image_io.hpp"
 #include "passes/head.hpp"
+#include "shaders/shared/shading.h"
 #include "wound/drawn_region.hpp"
 #include "wound/input_error.hpp"
 #include "wound/skin_match.hpp"
@@ -111,14 +112,19 @@ std::shared_ptr<const Workshop::Base> make_base(const WoundScene& scene, const s
     base->tissue = tissue_at(scene, passes::known_face_point(scene.place).value_or(passes::FacePoint{}));
     base->parts = wound::separate(read_photograph(scene), scene.width_mm,
                                   scene.mask.empty() ? name : scene.mask.string());
+    check_count(base->parts.size(), base->parts.size(), name);
+    std::vector<std::future<wound::PreparedWound>> prepared;
     for (const wound::WoundPart& part : base->parts) {
         wound::Preparation preparation;
         preparation.where = name;
         preparation.width_mm = part.width_mm;
         preparation.hints = scene.segmentation;
         preparation.depth.tissue = base->tissue;
-        base->prepared.push_back(wound::prepare(part.photograph, preparation));
+        prepared.push_back(
+            std::async(std::launch::async, wound::prepare, std::cref(part.photograph), preparation));
     }
+    for (std::future<wound::PreparedWound>& part : prepared)
+        base->prepared.push_back(part.get());
     return base;
 }
 
@@ -180,6 +186,16 @@ bool ready(const std::future<T>& future)
 std::string name_of(const WoundScene& wound, std::size_t index)
 {
     return wound.photo.empty() ? fmt::format("wound {}", index + 1) : wound.photo.string();
+}
+
+void check_count(std::size_t all, std::size_t components, const std::string& name)
+{
+    if (all > std::size_t(shared::MAX_WOUNDS))
+        throw cicatrix::InputError(
+            name,
+            fmt::format("its mask has {} components, which makes more than {} wounds in the scene",
+                        components, shared::MAX_WOUNDS),
+            "leave wounds out of the scene, or components out of the mask");
 }
 
 std::vector<passes::Anchor> anchors_of(const WoundScene& scene, const Fit& fit, const LoadedHead& head,

@@ -57,6 +57,10 @@ struct Fit
 std::vector<passes::Anchor> anchors_of(const WoundScene& scene, const Fit& fit, const LoadedHead& head,
                                        const std::string& name);
 
+/// Throws cicatrix::InputError, naming the photograph, when its components bring the wounds of a scene to
+/// more than there may be.
+void check_count(std::size_t all, std::size_t components, const std::string& name);
+
 /// "wound 2", or the photograph's path.
 std::string name_of(const WoundScene& wound, std::size_t index);
 

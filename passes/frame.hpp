@@ -30,14 +30,16 @@ struct FrameInput
     Camera camera;
     Shading shading;
     wound::Rung reflectance = wound::Rung::TwoStream;
-    std::uint32_t width = 1280, height = 720, samples = 1;
+    Canvas canvas;
+    std::uint32_t samples = 1;
     float exposure = 1;
     bool every_frame = true; // draw the head even when nothing has changed, as those who measure it want
 };
 
 struct FrameImages
 {
-    engine::ImageId picture; // RGBA8, sRGB-encoded
+    engine::ImageId picture;  // RGBA8, sRGB-encoded
+    engine::ImageId radiance; // RGBA16F, linear, neither exposed nor with a backdrop, premultiplied
     std::vector<WoundTexture> wounds;
 };
 
