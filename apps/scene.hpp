@@ -64,6 +64,7 @@ struct ViewScene
 {
     std::string name; // letters, digits, - and _: it goes into names of files
     std::optional<CameraScene> camera;
+    bool operator==(const ViewScene&) const = default;
 };
 
 /// The mended equations with coefficients for skin, and everything as the paper prints it.
