@@ -7,7 +7,9 @@
 #include "apps/bake.hpp"
 #include "apps/bake_head.hpp"
 #include "engine/image_io.hpp"
+#include "passes/skin_under.hpp"
 #include "wound/input_error.hpp"
+
 #include "wound/prepare.hpp"
 #include "wound/skin_match.hpp"
 #include "wound/synthetic.hpp"

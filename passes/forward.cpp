@@ -17,32 +17,6 @@ shared::vec3 to_vec3(const glm::dvec3& v)
     return shared::vec3(v);
 }
 
-struct WoundUniform
-{
-    shared::WoundFrame frames[shared::MAX_WOUNDS];
-};
-
-WoundUniform wound_frames(std::span<const PlacedWound> wounds)
-{
-    WoundUniform uniform{};
-    for (std::size_t i = 0; i < wounds.size(); ++i) {
-        const Anchor& anchor = wounds[i].anchor;
-        const cv::Vec3f blood = wound::blood_absorbance;
-        uniform.frames[i] = {
-            to_vec3(anchor.centre),
-            float(anchor.half_width_m),
-            to_vec3(anchor.right),
-            float(Anchor::reach),
-            to_vec3(anchor.down),
-            float(wounds[i].day),
-            to_vec3(anchor.normal),
-            wounds[i].axes,
-            glm::exp(-1.4f * float(wounds[i].pink) * shared::vec3(blood[0], blood[1], blood[2])),
-            wounds[i].epithelium ? 1.0f : 0.0f};
-    }
-    return uniform;
-}
-
 shared::Part part_params(const HeadPart& part)
 {
     shared::Part params{part.albedo_factor, part.normal_scale, 1, 1, 1};
@@ -81,6 +55,14 @@ void give_wounds(engine::Draw& draw, const ForwardInput& input, bool wounded, en
 
 } // namespace
 
+glm::dmat4 eye_from_world(const Camera& camera)
+{
+    const glm::dvec3 sight = camera.target - camera.eye;
+    const glm::dvec3 up =
+        std::abs(sight.y) > 0.999 * glm::length(sight) ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+    return glm::lookAt(camera.eye, camera.target, up);
+}
+
 shared::View make_view(const Camera& camera, const Head& head, double aspect)
 {
     const glm::dvec3 low(head.min), high(head.max);
@@ -89,10 +71,28 @@ shared::View make_view(const Camera& camera, const Head& head, double aspect)
     const double near = std::max(distance - radius, 0.02), far = distance + radius + 0.1;
     glm::dmat4 projection = glm::perspective(glm::radians(camera.fov_deg), aspect, near, far);
     projection[1][1] *= -1; // Vulkan's y points down
-    const glm::dvec3 sight = camera.target - camera.eye;
-    const glm::dvec3 up =
-        std::abs(sight.y) > 0.999 * glm::length(sight) ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
-    return {shared::mat4(projection * glm::lookAt(camera.eye, camera.target, up)), to_vec3(camera.eye)};
+    return {shared::mat4(projection * eye_from_world(camera)), to_vec3(camera.eye)};
+}
+
+WoundUniform wound_frames(std::span<const PlacedWound> wounds)
+{
+    WoundUniform uniform{};
+    for (std::size_t i = 0; i < wounds.size(); ++i) {
+        const Anchor& anchor = wounds[i].anchor;
+        const cv::Vec3f blood = wound::blood_absorbance;
+        uniform.frames[i] = {
+            to_vec3(anchor.centre),
+            float(anchor.half_width_m),
+            to_vec3(anchor.right),
+            float(Anchor::reach),
+            to_vec3(anchor.down),
+            float(wounds[i].day),
+            to_vec3(anchor.normal),
+            wounds[i].axes,
+            glm::exp(-1.4f * float(wounds[i].pink) * shared::vec3(blood[0], blood[1], blood[2])),
+            wounds[i].epithelium ? 1.0f : 0.0f};
+    }
+    return uniform;
 }
 
 engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, const shared::View& view,

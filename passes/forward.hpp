@@ -33,6 +33,8 @@ struct Camera
     glm::dvec3 eye{0, 0, 1}, target{0, 0, 0}; // metres
     double fov_deg = 20;                      // vertical
 };
+/// The head's coordinates -> the camera's: x right, y up, z backward.
+glm::dmat4 eye_from_world(const Camera& camera);
 /// Depth range fitted to a head of these bounds.
 shared::View make_view(const Camera& camera, const Head& head, double aspect);
 
@@ -46,6 +48,13 @@ struct PlacedWound
     double pink = 0;         // blood over the skin of newly closed wound, units of wound::blood_absorbance
     bool epithelium = false; // new epithelium grows between bed and border
 };
+
+/// The wounds as shaders know them (shaders/lib/wound_projection.glsl).
+struct WoundUniform
+{
+    shared::WoundFrame frames[shared::MAX_WOUNDS];
+};
+WoundUniform wound_frames(std::span<const PlacedWound> wounds);
 
 struct ForwardInput
 {

@@ -20,16 +20,28 @@ vec4 patch_sample(sampler2D map, vec2 uv, vec2 footprint)
     return 0.5 * (textureLod(map, uv + footprint, 0) + textureLod(map, uv - footprint, 0));
 }
 
-// `geometric`: the interpolated normal, which decides what the projection reaches; steep flanks fade out rather than smear.
+// Where a point of the head lies in the wound's patch: 0..1 inside it.
+vec2 wound_uv(WoundFrame w, vec3 position)
+{
+    const vec3 d = (position - w.centre) / w.half_width;
+    return 0.5 * vec2(dot(d, w.right), dot(d, w.down)) + 0.5;
+}
+
+// How much of the projection a point receives, 0..1: steep flanks fade out rather than smear, and so does what lies far from
+// the patch's plane. `geometric`: the interpolated normal. Its double-precision twin is passes::share_received().
+float share_received(WoundFrame w, vec3 position, vec3 geometric)
+{
+    const float height = dot(position - w.centre, w.normal) / (w.half_width * w.reach);
+    return smoothstep(0.15, 0.45, dot(geometric, w.normal)) * (1 - smoothstep(0.8, 1.0, abs(height)));
+}
+
 void add_wound(uint blend_model, WoundFrame w, sampler2D color_map, sampler2D state_map, sampler2D relief_map, sampler2D lut,
                vec3 position, vec3 geometric, inout SkinPoint skin)
 {
-    const vec3 d = (position - w.centre) / w.half_width;
-    const vec2 q = vec2(dot(d, w.right), dot(d, w.down));
-    const vec2 uv = 0.5 * q + 0.5;
+    const vec2 uv = wound_uv(w, position);
     const vec2 footprint = 0.25 * (dFdx(uv) + dFdy(uv)); // before any branch: derivatives need the whole quad
-    const float facing = smoothstep(0.15, 0.45, dot(geometric, w.normal)) * (1 - smoothstep(0.8, 1.0, abs(dot(d, w.normal)) / w.reach));
-    if (facing <= 0 || any(greaterThan(abs(q), vec2(1))))
+    const float facing = share_received(w, position, geometric);
+    if (facing <= 0 || any(greaterThan(abs(uv - 0.5), vec2(0.5))))
         return;
     const vec4 color = patch_sample(color_map, uv, footprint);
     const float opacity = color.a * facing;
