@@ -44,12 +44,10 @@ struct PlacedWound
     WoundTexture texture;
     ReflectanceLut lut;
     shared::LutAxes axes; // of the lut
-    double day = 0;
-    double pink = 0;         // blood over the skin of newly closed wound, units of wound::blood_absorbance
-    bool epithelium = false; // new epithelium grows between bed and border
+    const wound::WoundDay* today = nullptr;
 };
 
-/// The wounds as shaders know them (shaders/lib/wound_projection.glsl).
+/// As the shaders read them (project_wound() and add_wound() in shaders/lib/wound_projection.glsl).
 struct WoundUniform
 {
     shared::WoundFrame frames[shared::MAX_WOUNDS];

@@ -40,7 +40,8 @@ void visit_texels(const Over& triangle, double area, int size, const Visit& visi
             // A hair beside the centre: on a mesh as regular as the texels a centre would lie on two
             // triangles.
             const glm::dvec3 p((x + 0.5) * 2 / size - 1 + 1.3e-9, (y + 0.5) * 2 / size - 1 + 2.9e-9, 0);
-            const double b = cross_2d(p - q[0], q[2] - q[0]) / area, c = cross_2d(q[1] - q[0], p - q[0]) / area;
+            const double b = cross_2d(p - q[0], q[2] - q[0]) / area,
+                         c = cross_2d(q[1] - q[0], p - q[0]) / area;
             const double height = q[0].z + b * (q[1].z - q[0].z) + c * (q[2].z - q[0].z);
             if (b >= 0 && c >= 0 && b + c <= 1 && std::abs(height) <= reach)
                 visit(y, x, height, glm::dvec3(1 - b - c, b, c));

@@ -18,8 +18,8 @@ cv::Mat3f skin_under(const engine::Model& head, std::uint32_t material, const An
 /// this is the area that the coverage has on the head. Overlapping layers add up, as they are all drawn.
 cv::Mat1f surface_under(const engine::Model& head, std::uint32_t material, const Anchor& anchor, int size);
 
-/// 0..1: how much of the projection a point receives. `cosine` between its normal and the patch's, `height`
-/// above the patch's plane in half widths.
+/// 0..1: how much of the projection a point receives, `facing` of shaders/lib/wound_projection.glsl. `cosine`
+/// between its normal and the patch's, `height` above the patch's plane in half widths.
 double share_received(double cosine, double height);
 
 } // namespace passes

@@ -30,14 +30,13 @@ struct Seen
 // Of wounds that overlap, the one that covers more; at equal cover the later one, which is painted over the other.
 void see_wound(uint number, WoundFrame w, sampler2D state_map, sampler2D relief_map, vec3 geometric, inout Seen seen)
 {
-    const vec2 uv = wound_uv(w, v_position);
-    const float received = share_received(w, v_position, geometric);
-    if (received <= 0 || any(greaterThan(abs(uv - 0.5), vec2(0.5))))
+    const WoundPlace place = project_wound(w, v_position, geometric);
+    if (place.facing <= 0)
         return;
-    const vec4 state = textureLod(state_map, uv, 0);
-    const float bed = state.b * received, inside = max(state.a, state.b) * received;
+    const vec4 state = textureLod(state_map, place.uv, 0);
+    const float bed = state.b * place.facing, inside = max(state.a, state.b) * place.facing;
     if (inside > 0 && inside >= seen.inside)
-        seen = Seen(number, bed, inside, textureLod(relief_map, uv, 0).a);
+        seen = Seen(number, bed, inside, textureLod(relief_map, place.uv, 0).a);
 }
 
 #define SEE_WOUND(i)                                                                                                           \

@@ -58,11 +58,9 @@ Labelled labelled(const app::Stage& stage, double day)
                     passes::pinhole(stage.camera(), scene.size[0], scene.size[1])};
     result.maps = passes::label_maps(result.kinds, result.measures);
     result.visible = passes::visible_wounds(result.kinds, result.measures, wounds.size());
-    const std::uint32_t skin = passes::skin_material(stage.head());
     for (std::size_t i = 0; i < wounds.size(); ++i) {
         const cv::Mat4f state = floats(frame.mat(wounds[i][0])), relief = floats(frame.mat(wounds[i][1]));
-        const cv::Mat1f surface = passes::surface_under(stage.head(), skin, stage.anchors()[i], state.rows);
-        result.size.push_back(passes::wound_size(surface, state, relief));
+        result.size.push_back(passes::wound_size(stage.surface_mm2(i), state, relief));
     }
     return result;
 }
