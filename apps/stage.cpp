@@ -7,248 +7,240 @@
 #include "apps/bake.hpp"
 #include "apps/bake_head.hpp"
 #include "engine/image_io.hpp"
-<<<<<<< HEAD
 #include "passes/skin_under.hpp"
-    =======
 #include "wound/drawn_region.hpp"
-    >>>>>>> main
 #include "wound/input_error.hpp"
 
 #include "wound/prepare.hpp"
 #include "wound/skin_match.hpp"
 #include "wound/synthetic.hpp"
 
-    namespace app
+namespace app {
+namespace {
+
+constexpr std::size_t table_rows =
+    32; // as wide as high: the smallest table within .002 of direct evaluation (docs/optics.md)
+
+glm::dvec3 face_middle(const passes::FaceFrame& face)
 {
-    namespace {
+    return face.nose_tip + face.unit_m * glm::dvec3(0, 0.13, -0.45);
+}
+/// Crown to chin, about; the object of the paper's set-up.
+double head_height(const passes::FaceFrame& face)
+{
+    return 1.65 * face.unit_m;
+}
 
-    constexpr std::size_t table_rows =
-        32; // as wide as high: the smallest table within .002 of direct evaluation (docs/optics.md)
+glm::dvec3 unit_towards(const Direction& from)
+{
+    const double azimuth = glm::radians(from.azimuth_deg), elevation = glm::radians(from.elevation_deg);
+    return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+            std::cos(azimuth) * std::cos(elevation)};
+}
 
-    glm::dvec3 face_middle(const passes::FaceFrame& face)
-    {
-        return face.nose_tip + face.unit_m * glm::dvec3(0, 0.13, -0.45);
+cv::Vec3d to_cv(const glm::dvec3& v)
+{
+    return {v.x, v.y, v.z};
+}
+
+wound::Light make_light(const LightScene& scene, const passes::FaceFrame& face)
+{
+    const glm::dvec3 towards = unit_towards(scene.from), middle = face_middle(face);
+    wound::Light light;
+    light.kind = scene.directional ? wound::LightKind::Directional
+                 : scene.falloff   ? wound::LightKind::Point
+                                   : wound::LightKind::PointWithoutFalloff;
+    light.position = to_cv(middle + scene.distance_m * towards);
+    light.direction = to_cv(towards);
+    light.strength = cv::Vec3d(scene.color[0], scene.color[1], scene.color[2]) * scene.intensity;
+    light.reference_distance_m = std::max(scene.distance_m, 1e-3);
+    light.translucency_distance = wound::paper_distance(head_height(face), scene.distance_m);
+    return light;
+}
+
+/// From face coordinates (unit: nose to crown) to those of the tissue map: ears at x = +-1, hairline and
+/// chin at y = +-1.
+cv::Point2d tissue_coordinates(const passes::FacePoint& face)
+{
+    return {face.x / 0.55, face.y / (face.y > 0 ? 0.65 : 0.58)};
+}
+
+wound::TissueThickness scaled(wound::TissueThickness tissue, double factor)
+{
+    return {tissue.epidermis * factor, tissue.dermis * factor, tissue.subcutis * factor};
+}
+
+wound::Photograph read_photograph(const WoundScene& scene)
+{
+    if (scene.photo.empty()) {
+        wound::SyntheticWound synthetic;
+        synthetic.shape = scene.kind == "laceration" ? wound::WoundShape::laceration
+                          : scene.kind == "avulsion" ? wound::WoundShape::avulsion
+                                                     : wound::WoundShape::abrasion;
+        synthetic.seed = scene.seed;
+        return wound::synthesize(synthetic);
     }
-    /// Crown to chin, about; the object of the paper's set-up.
-    double head_height(const passes::FaceFrame& face)
-    {
-        return 1.65 * face.unit_m;
-    }
+    wound::Photograph photograph{engine::read_rgb(scene.photo), {}};
+    if (!scene.mask.empty())
+        photograph.mask =
+            wound::checked_mask(engine::read_mask(scene.mask), photograph.srgb.size(), scene.mask.string());
+    return photograph;
+}
 
-    glm::dvec3 unit_towards(const Direction& from)
-    {
-        const double azimuth = glm::radians(from.azimuth_deg), elevation = glm::radians(from.elevation_deg);
-        return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
-                std::cos(azimuth) * std::cos(elevation)};
-    }
+std::string name_of(const WoundScene& wound, std::size_t index)
+{
+    return wound.photo.empty() ? fmt::format("wound {}", index + 1) : wound.photo.string();
+}
 
-    cv::Vec3d to_cv(const glm::dvec3& v)
-    {
-        return {v.x, v.y, v.z};
-    }
+wound::PreparedWound prepare_wound(const WoundScene& scene, const passes::FacePoint& face,
+                                   const std::string& name)
+{
+    wound::Preparation preparation;
+    preparation.where = name;
+    preparation.width_mm = scene.width_mm;
+    preparation.depth.tissue = scaled(wound::tissue_thickness(tissue_coordinates(face)), scene.depth_factor);
+    return wound::prepare(read_photograph(scene), preparation);
+}
 
-    wound::Light make_light(const LightScene& scene, const passes::FaceFrame& face)
-    {
-        const glm::dvec3 towards = unit_towards(scene.from), middle = face_middle(face);
-        wound::Light light;
-        light.kind = scene.directional ? wound::LightKind::Directional
-                     : scene.falloff   ? wound::LightKind::Point
-                                       : wound::LightKind::PointWithoutFalloff;
-        light.position = to_cv(middle + scene.distance_m * towards);
-        light.direction = to_cv(towards);
-        light.strength = cv::Vec3d(scene.color[0], scene.color[1], scene.color[2]) * scene.intensity;
-        light.reference_distance_m = std::max(scene.distance_m, 1e-3);
-        light.translucency_distance = wound::paper_distance(head_height(face), scene.distance_m);
-        return light;
-    }
+std::shared_ptr<const engine::Model> read_head(const Scene& scene, std::vector<std::string>& notes)
+{
+    const std::filesystem::path file = scene.head.empty() ? default_head_path() : scene.head;
+    if (scene.head.empty() && !std::filesystem::exists(file))
+        throw cicatrix::InputError(
+            file.string(), "the default head has not been made yet",
+            "run ./run setup (needs the network once), or give a head of your own with --head FILE.glb");
+    auto head = std::make_shared<engine::Model>(engine::load_model(file));
+    engine::normalise_size(*head);
+    for (const std::string& note : head->notes)
+        notes.push_back(fmt::format("{}: {}", file.string(), note));
+    return head;
+}
 
-    /// From face coordinates (unit: nose to crown) to those of the tissue map: ears at x = +-1, hairline and
-    /// chin at y = +-1.
-    cv::Point2d tissue_coordinates(const passes::FacePoint& face)
-    {
-        return {face.x / 0.55, face.y / (face.y > 0 ? 0.65 : 0.58)};
-    }
+} // namespace
 
-    wound::TissueThickness scaled(wound::TissueThickness tissue, double factor)
-    {
-        return {tissue.epidermis * factor, tissue.dermis * factor, tissue.subcutis * factor};
-    }
-
-    wound::Photograph read_photograph(const WoundScene& scene)
-    {
-        if (scene.photo.empty()) {
-            wound::SyntheticWound synthetic;
-            synthetic.shape = scene.kind == "laceration" ? wound::WoundShape::laceration
-                              : scene.kind == "avulsion" ? wound::WoundShape::avulsion
-                                                         : wound::WoundShape::abrasion;
-            synthetic.seed = scene.seed;
-            return wound::synthesize(synthetic);
-        }
-        wound::Photograph photograph{engine::read_rgb(scene.photo), {}};
-        if (!scene.mask.empty())
-            photograph.mask = wound::checked_mask(engine::read_mask(scene.mask), photograph.srgb.size(),
-                                                  scene.mask.string());
-        return photograph;
-    }
-
-    std::string name_of(const WoundScene& wound, std::size_t index)
-    {
-        return wound.photo.empty() ? fmt::format("wound {}", index + 1) : wound.photo.string();
-    }
-
-    wound::PreparedWound prepare_wound(const WoundScene& scene, const passes::FacePoint& face,
-                                       const std::string& name)
-    {
-        wound::Preparation preparation;
-        preparation.where = name;
-        preparation.width_mm = scene.width_mm;
-        preparation.depth.tissue =
-            scaled(wound::tissue_thickness(tissue_coordinates(face)), scene.depth_factor);
-        return wound::prepare(read_photograph(scene), preparation);
-    }
-
-    std::shared_ptr<const engine::Model> read_head(const Scene& scene, std::vector<std::string>& notes)
-    {
-        const std::filesystem::path file = scene.head.empty() ? default_head_path() : scene.head;
-        if (scene.head.empty() && !std::filesystem::exists(file))
-            throw cicatrix::InputError(
-                file.string(), "the default head has not been made yet",
-                "run ./run setup (needs the network once), or give a head of your own with --head FILE.glb");
-        auto head = std::make_shared<engine::Model>(engine::load_model(file));
-        engine::normalise_size(*head);
-        for (const std::string& note : head->notes)
-            notes.push_back(fmt::format("{}: {}", file.string(), note));
-        return head;
-    }
-
-    } // namespace
-
-    Stage::Props Stage::prepare(const Scene& scene)
-    {
-        // Where the place on the face is known without the head, a photograph is prepared while the head is
-        // being read.
-        std::vector<std::future<wound::PreparedWound>> early;
-        for (std::size_t i = 0; i < scene.wounds.size(); ++i) {
-            const WoundScene& wound = scene.wounds[i];
-            if (const auto face = passes::known_face_point(wound.place))
-                early.push_back(
-                    std::async(std::launch::async, prepare_wound, wound, *face, name_of(wound, i)));
-            else
-                early.emplace_back();
-        }
-
-        Props props;
-        props.head = read_head(scene, props.notes);
-        props.face = passes::find_face(*props.head);
-        props.tissue = healing_tissue_or_file(scene.tissue);
-        if (const auto* table = std::get_if<wound::SkinLayers>(&props.tissue);
-            table != nullptr && scene.reflectance_model == wound::Rung::Published)
-            if (const std::size_t outside = wound::outside_domain(*table).size(); outside > 0)
-                props.notes.push_back(
-                    fmt::format("eqs. (2) and (3) as printed are outside their domain in {} of "
-                                "{} layers and channels: colours of the wound are off, "
-                                "often green (docs/optics.md)",
-                                outside, table->layers.size() * table->channels()));
-        const std::uint32_t skin = passes::skin_material(*props.head);
-        for (std::size_t i = 0; i < scene.wounds.size(); ++i) {
-            const WoundScene& wound = scene.wounds[i];
-            const passes::Anchor anchor = passes::anchor_wound(*props.head, props.face, wound.place,
-                                                               wound.width_mm / wound::kWoundShare,
-                                                               wound.roll_deg, name_of(wound, i) + ": at");
-            props.anchors.push_back(anchor);
-            props.wounds.push_back(
-                std::async(std::launch::async, [=, head = props.head, ready = early[i].share(),
-                                                name = name_of(wound, i)] {
-                    wound::PreparedWound prepared =
-                        ready.valid() ? ready.get() : prepare_wound(wound, anchor.face, name);
-                    prepared.patch = wound::match_to_skin(
-                        prepared.patch, passes::skin_under(*head, skin, anchor, prepared.patch.color.cols));
-                    return prepared;
-                }));
-        }
-        return props;
+Stage::Props Stage::prepare(const Scene& scene)
+{
+    // Where the place on the face is known without the head, a photograph is prepared while the head is
+    // being read.
+    std::vector<std::future<wound::PreparedWound>> early;
+    for (std::size_t i = 0; i < scene.wounds.size(); ++i) {
+        const WoundScene& wound = scene.wounds[i];
+        if (const auto face = passes::known_face_point(wound.place))
+            early.push_back(std::async(std::launch::async, prepare_wound, wound, *face, name_of(wound, i)));
+        else
+            early.emplace_back();
     }
 
-    Stage::Stage(const engine::Device& device, const Scene& scene, Props props)
-        : scene_(scene), props_(std::move(props)),
-          head_(passes::upload_head(device, *props_.head, props_.anchors))
-    {
-        const double last_day = std::max(1.0, *std::ranges::max_element(scene_.days));
-        for (std::size_t i = 0; i < props_.wounds.size(); ++i) {
-            prepared_.push_back(props_.wounds[i].get());
-            const passes::LutRows rows =
-                passes::lut_rows(props_.tissue, scene_.wounds[i].healing, table_rows, last_day);
-            wounds_.push_back({props_.anchors[i], passes::upload_wound(device, prepared_[i].patch),
-                               passes::lut_tissue(rows.open, last_day)});
-            wounds_.back().maps.region = wound::drawn_region(prepared_[i], scene_.wounds[i].healing);
-        }
-        set_lights(scene_.lights);
+    Props props;
+    props.head = read_head(scene, props.notes);
+    props.face = passes::find_face(*props.head);
+    props.tissue = healing_tissue_or_file(scene.tissue);
+    if (const auto* table = std::get_if<wound::SkinLayers>(&props.tissue);
+        table != nullptr && scene.reflectance_model == wound::Rung::Published)
+        if (const std::size_t outside = wound::outside_domain(*table).size(); outside > 0)
+            props.notes.push_back(fmt::format("eqs. (2) and (3) as printed are outside their domain in {} of "
+                                              "{} layers and channels: colours of the wound are off, "
+                                              "often green (docs/optics.md)",
+                                              outside, table->layers.size() * table->channels()));
+    const std::uint32_t skin = passes::skin_material(*props.head);
+    for (std::size_t i = 0; i < scene.wounds.size(); ++i) {
+        const WoundScene& wound = scene.wounds[i];
+        const passes::Anchor anchor =
+            passes::anchor_wound(*props.head, props.face, wound.place, wound.width_mm / wound::kWoundShare,
+                                 wound.roll_deg, name_of(wound, i) + ": at");
+        props.anchors.push_back(anchor);
+        props.wounds.push_back(std::async(
+            std::launch::async, [=, head = props.head, ready = early[i].share(), name = name_of(wound, i)] {
+                wound::PreparedWound prepared =
+                    ready.valid() ? ready.get() : prepare_wound(wound, anchor.face, name);
+                prepared.patch = wound::match_to_skin(
+                    prepared.patch, passes::skin_under(*head, skin, anchor, prepared.patch.color.cols));
+                return prepared;
+            }));
     }
+    return props;
+}
 
-    void Stage::set_lights(const std::vector<LightScene>& lights)
-    {
-        std::vector<wound::Light> made;
-        for (std::size_t i = 0; i < lights.size(); ++i) {
-            made.push_back(make_light(lights[i], props_.face));
-            wound::check_light(made[i], fmt::format("scene: /lights/{}", i));
-            wound::check_shading(scene_.shading.model,
-                                 wound::translucency_distances(made[i], to_cv(face_middle(props_.face)),
-                                                               head_height(props_.face)),
-                                 "scene: /shading");
-        }
-        scene_.lights = lights;
-        lights_ = std::move(made);
+Stage::Stage(const engine::Device& device, const Scene& scene, Props props)
+    : scene_(scene), props_(std::move(props)),
+      head_(passes::upload_head(device, *props_.head, props_.anchors))
+{
+    const double last_day = std::max(1.0, *std::ranges::max_element(scene_.days));
+    for (std::size_t i = 0; i < props_.wounds.size(); ++i) {
+        prepared_.push_back(props_.wounds[i].get());
+        const passes::LutRows rows =
+            passes::lut_rows(props_.tissue, scene_.wounds[i].healing, table_rows, last_day);
+        wounds_.push_back({props_.anchors[i], passes::upload_wound(device, prepared_[i].patch),
+                           passes::lut_tissue(rows.open, last_day)});
+        wounds_.back().maps.region = wound::drawn_region(prepared_[i], scene_.wounds[i].healing);
     }
+    set_lights(scene_.lights);
+}
 
-    cv::Mat1f Stage::surface_mm2(std::size_t wound) const
-    {
-        const passes::WoundMaps& maps = wounds_.at(wound).maps;
-        return passes::surface_under(head(), passes::skin_material(head()), props_.anchors[wound],
-                                     maps.size)(maps.region)
-            .clone();
+void Stage::set_lights(const std::vector<LightScene>& lights)
+{
+    std::vector<wound::Light> made;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        made.push_back(make_light(lights[i], props_.face));
+        wound::check_light(made[i], fmt::format("scene: /lights/{}", i));
+        wound::check_shading(
+            scene_.shading.model,
+            wound::translucency_distances(made[i], to_cv(face_middle(props_.face)), head_height(props_.face)),
+            "scene: /shading");
     }
+    scene_.lights = lights;
+    lights_ = std::move(made);
+}
 
-    std::vector<wound::WoundDay> Stage::wounds_on(double day) const
-    {
-        std::vector<wound::WoundDay> today;
-        for (std::size_t i = 0; i < prepared_.size(); ++i)
-            today.push_back(wound::wound_at(prepared_[i], scene_.wounds[i].healing, day));
-        return today;
-    }
+cv::Mat1f Stage::surface_mm2(std::size_t wound) const
+{
+    const passes::WoundMaps& maps = wounds_.at(wound).maps;
+    return passes::surface_under(head(), passes::skin_material(head()), props_.anchors[wound],
+                                 maps.size)(maps.region)
+        .clone();
+}
 
-    passes::Camera Stage::camera() const
-    {
-        const double half_height = 0.98 * props_.face.unit_m; // from the neck to the crown
-        const double distance = scene_.camera.distance_m > 0
-                                    ? scene_.camera.distance_m
-                                    : half_height / std::tan(glm::radians(scene_.camera.fov_deg) / 2);
-        const glm::dvec3 target = face_middle(props_.face);
-        return {target + distance * unit_towards(scene_.camera.from), target, scene_.camera.fov_deg};
-    }
+std::vector<wound::WoundDay> Stage::wounds_on(double day) const
+{
+    std::vector<wound::WoundDay> today;
+    for (std::size_t i = 0; i < prepared_.size(); ++i)
+        today.push_back(wound::wound_at(prepared_[i], scene_.wounds[i].healing, day));
+    return today;
+}
 
-    passes::Camera Stage::close_up(std::size_t wound) const
-    {
-        if (wound >= props_.anchors.size())
-            return camera();
-        const passes::Anchor& anchor = props_.anchors[wound];
-        // From a little above the surface's normal towards the front, so that the hollow can be seen as one.
-        const glm::dvec3 towards = glm::normalize(anchor.normal + 0.35 * unit_towards(scene_.camera.from));
-        constexpr double fov_deg = 12;
-        const double distance = 0.95 * anchor.half_width_m / std::tan(glm::radians(fov_deg) / 2);
-        return {anchor.centre + distance * towards, anchor.centre, fov_deg};
-    }
+passes::Camera Stage::camera() const
+{
+    const double half_height = 0.98 * props_.face.unit_m; // from the neck to the crown
+    const double distance = scene_.camera.distance_m > 0
+                                ? scene_.camera.distance_m
+                                : half_height / std::tan(glm::radians(scene_.camera.fov_deg) / 2);
+    const glm::dvec3 target = face_middle(props_.face);
+    return {target + distance * unit_towards(scene_.camera.from), target, scene_.camera.fov_deg};
+}
 
-    passes::FrameImages Stage::declare(engine::Graph & graph, const std::vector<wound::WoundDay>& today,
-                                       const passes::Camera& camera, const passes::Shading& shading,
-                                       std::array<std::uint32_t, 2> size) const
-    {
-        passes::FrameInput input{head_, wounds_, today, lights_, camera, shading};
-        input.reflectance = scene_.reflectance_model;
-        input.width = size[0];
-        input.height = size[1];
-        input.samples = scene_.samples;
-        input.exposure = float(scene_.exposure_stops);
-        return passes::add_frame(graph, input);
-    }
+passes::Camera Stage::close_up(std::size_t wound) const
+{
+    if (wound >= props_.anchors.size())
+        return camera();
+    const passes::Anchor& anchor = props_.anchors[wound];
+    // From a little above the surface's normal towards the front, so that the hollow can be seen as one.
+    const glm::dvec3 towards = glm::normalize(anchor.normal + 0.35 * unit_towards(scene_.camera.from));
+    constexpr double fov_deg = 12;
+    const double distance = 0.95 * anchor.half_width_m / std::tan(glm::radians(fov_deg) / 2);
+    return {anchor.centre + distance * towards, anchor.centre, fov_deg};
+}
+
+passes::FrameImages Stage::declare(engine::Graph& graph, const std::vector<wound::WoundDay>& today,
+                                   const passes::Camera& camera, const passes::Shading& shading,
+                                   std::array<std::uint32_t, 2> size) const
+{
+    passes::FrameInput input{head_, wounds_, today, lights_, camera, shading};
+    input.reflectance = scene_.reflectance_model;
+    input.width = size[0];
+    input.height = size[1];
+    input.samples = scene_.samples;
+    input.exposure = float(scene_.exposure_stops);
+    return passes::add_frame(graph, input);
+}
 
 } // namespace app

@@ -33,13 +33,20 @@ cv::Mat4f floats(const cv::Mat& halves)
     return values;
 }
 
-Labelled labelled(const app::Stage& stage, double day)
+/// Straight at the wall's middle, or `degrees` from the side; 126 mm across.
+passes::Camera before_the_wall(double degrees = 0)
+{
+    const double angle = glm::radians(degrees);
+    return {0.6 * glm::dvec3(std::sin(angle), 0, std::cos(angle)), glm::dvec3(0), 12};
+}
+
+Labelled labelled(const app::Stage& stage, double day, const passes::Camera& camera)
 {
     engine::Executor executor(gpu::device(), gpu::shaders());
     const app::Scene& scene = stage.scene();
     engine::Graph graph;
     const passes::FrameImages images =
-        stage.declare(graph, stage.wounds_on(day), stage.camera(), scene.shading, scene.size);
+        stage.declare(graph, stage.wounds_on(day), camera, scene.shading, scene.size);
     const auto picture = graph.readback("picture", images.picture);
     const auto kinds = graph.readback("kinds", images.labels.kinds);
     const auto measures = graph.readback("measures", images.labels.measures);
@@ -55,7 +62,7 @@ Labelled labelled(const app::Stage& stage, double day)
                     {},
                     {},
                     {},
-                    passes::pinhole(stage.camera(), scene.size[0], scene.size[1])};
+                    passes::pinhole(camera, scene.size[0], scene.size[1])};
     result.maps = passes::label_maps(result.kinds, result.measures);
     result.visible = passes::visible_wounds(result.kinds, result.measures, wounds.size());
     for (std::size_t i = 0; i < wounds.size(); ++i) {
@@ -63,6 +70,11 @@ Labelled labelled(const app::Stage& stage, double day)
         result.size.push_back(passes::wound_size(stage.surface_mm2(i), state, relief));
     }
     return result;
+}
+
+Labelled labelled(const app::Stage& stage, double day)
+{
+    return labelled(stage, day, stage.camera());
 }
 
 app::Stage stage_of(const app::Scene& scene)
@@ -76,7 +88,9 @@ app::Scene disc_scene(const engine::Model& model, double width_mm, std::uint32_t
     static const TemporaryFolder folder;
     cv::Mat3b photo(512, 512, cv::Vec3b(208, 162, 140));
     cv::Mat1b mask = cv::Mat1b::zeros(512, 512);
-    cv::circle(mask, {256, 256}, 100, 255, cv::FILLED);
+    for (int y = 0; y < 512; ++y) // by the pixels' middles: cv::circle's is half a pixel too wide
+        for (int x = 0; x < 512; ++x)
+            mask(y, x) = std::hypot(x - 255.5, y - 255.5) < 100 ? 255 : 0;
     photo.setTo(cv::Vec3b(140, 40, 36), mask);
     engine::write_png(folder / "disc.png", photo);
     engine::write_png(folder / "disc_mask.png", mask);
@@ -106,7 +120,7 @@ class Labels : public gpu::Test
 TEST_F(Labels, OnAWallPixelsAndSurfaceAgreeWithTheDisc)
 {
     const app::Stage stage = stage_of(disc_scene(small::wall({.6f, .4f, .3f}), 40));
-    const Labelled day = labelled(stage, 0);
+    const Labelled day = labelled(stage, 0, before_the_wall());
     const double mm_per_px = day.maps.distance_mm(256, 256) / day.camera.focal_px;
     EXPECT_NEAR(day.size[0].inside_mm2 / disc_mm2(40), 1, .01);
     EXPECT_NEAR(day.size[0].bed_mm2 / disc_mm2(40), 1, .01);
@@ -121,10 +135,8 @@ TEST_F(Labels, OnAWallPixelsAndSurfaceAgreeWithTheDisc)
 
 TEST_F(Labels, SeenFromTheSideTheSurfaceStaysAndThePixelsShrink)
 {
-    app::Scene scene = disc_scene(small::wall({.6f, .4f, .3f}), 40);
-    scene.camera.from = {60, 0};
-    const app::Stage stage = stage_of(scene);
-    const Labelled day = labelled(stage, 0);
+    const app::Stage stage = stage_of(disc_scene(small::wall({.6f, .4f, .3f}), 40));
+    const Labelled day = labelled(stage, 0, before_the_wall(60));
     EXPECT_NEAR(day.visible[0].inside_mm2 / disc_mm2(40), 1, .01);
     const double mm_per_px = day.maps.distance_mm(256, 256) / day.camera.focal_px;
     EXPECT_NEAR(double(day.visible[0].bed_px) * mm_per_px * mm_per_px / disc_mm2(40), .5, .04);
@@ -278,11 +290,11 @@ engine::Model wall_with_plate(engine::AlphaMode alpha)
 TEST_F(Labels, OpaquePartsHideAWoundAndBlendedOnesDoNot)
 {
     const app::Stage solid = stage_of(disc_scene(wall_with_plate(engine::AlphaMode::Opaque), 40));
-    const Labelled hidden = labelled(solid, 0);
+    const Labelled hidden = labelled(solid, 0, before_the_wall());
     EXPECT_NEAR(hidden.visible[0].inside_mm2 / hidden.size[0].inside_mm2, .5, .03);
     EXPECT_GT(count(hidden.maps.kinds, shared::LABEL_OTHER), 1000);
     const app::Stage thin = stage_of(disc_scene(wall_with_plate(engine::AlphaMode::Blend), 40));
-    const Labelled open = labelled(thin, 0);
+    const Labelled open = labelled(thin, 0, before_the_wall());
     EXPECT_NEAR(open.visible[0].inside_mm2 / open.size[0].inside_mm2, 1, .01);
     EXPECT_EQ(count(open.maps.kinds, shared::LABEL_OTHER), 0);
 }
