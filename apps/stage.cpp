@@ -165,13 +165,10 @@ Stage::Stage(const engine::Device& device, const Scene& scene, Props props)
     : scene_(scene), props_(std::move(props)),
       head_(passes::upload_head(device, *props_.head, props_.anchors))
 {
-    const double last_day = std::max(1.0, *std::ranges::max_element(scene_.days));
     for (std::size_t i = 0; i < props_.wounds.size(); ++i) {
         prepared_.push_back(props_.wounds[i].get());
-        const passes::LutRows rows =
-            passes::lut_rows(props_.tissue, scene_.wounds[i].healing, table_rows, last_day);
-        wounds_.push_back({props_.anchors[i], passes::upload_wound(device, prepared_[i].patch),
-                           passes::lut_tissue(rows.open, last_day)});
+        wounds_.push_back(
+            {props_.anchors[i], passes::upload_wound(device, prepared_[i].patch), table_tissue(i)});
         wounds_.back().maps.region = wound::drawn_region(prepared_[i], scene_.wounds[i].healing);
     }
     set_lights(scene_.lights);
@@ -198,6 +195,21 @@ cv::Mat1f Stage::surface_mm2(std::size_t wound) const
     return passes::surface_under(head(), passes::skin_material(head()), props_.anchors[wound],
                                  maps.size)(maps.region)
         .clone();
+}
+
+passes::LutTissue Stage::table_tissue(std::size_t wound) const
+{
+    const double last_day = std::max(1.0, *std::ranges::max_element(scene_.days));
+    const passes::LutRows rows =
+        passes::lut_rows(props_.tissue, scene_.wounds[wound].healing, table_rows, last_day);
+    return passes::lut_tissue(rows.open, last_day);
+}
+
+void Stage::set_tissue(const wound::HealingTissue& tissue)
+{
+    props_.tissue = tissue;
+    for (std::size_t i = 0; i < wounds_.size(); ++i)
+        wounds_[i].tissue = table_tissue(i);
 }
 
 std::vector<wound::WoundDay> Stage::wounds_on(double day) const
