@@ -25,14 +25,14 @@ FrameImages add_frame(engine::Graph& graph, const FrameInput& input)
         forward.shadow = fit_shadow(input.lights.front(), input.head.min, input.head.max);
     if (forward.shadow)
         forward.shadow_depth = add_shadow(graph, *forward.shadow, *input.head.mesh, input.head.casters);
-    const shared::View view = make_view(input.camera, input.head, double(input.width) / input.height);
-    const engine::ImageId radiance =
-        add_forward(graph, forward, view, input.shading,
-                    {input.width, input.height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
-    images.picture = add_tonemap(graph, radiance, input.exposure, Highlights::SoftShoulder, studio);
-    images.labels = add_labels(graph, input.head, placed, view,
-                               label_camera(input.camera, pinhole(input.camera, input.width, input.height)),
-                               input.width, input.height);
+    const auto [width, height] = input.canvas.size;
+    const shared::View view = make_view(input.camera, input.head, input.canvas);
+    images.radiance = add_forward(graph, forward, view, input.shading,
+                                  {width, height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
+    images.picture = add_tonemap(graph, images.radiance, input.exposure, Highlights::SoftShoulder,
+                                 backdrop_of(input.canvas));
+    images.labels = add_labels(graph, input.head, placed, view, label_camera(input.camera, input.canvas),
+                               input.canvas.size);
     return images;
 }
 

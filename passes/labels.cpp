@@ -6,9 +6,10 @@
 namespace passes {
 
 LabelImages add_labels(engine::Graph& graph, const Head& head, std::span<const PlacedWound> wounds,
-                       const shared::View& view, const shared::LabelCamera& camera, std::uint32_t width,
-                       std::uint32_t height)
+                       const shared::View& view, const shared::LabelCamera& camera,
+                       std::array<std::uint32_t, 2> size)
 {
+    const auto [width, height] = size;
     const LabelImages images{graph.image("label_kinds", {width, height, VK_FORMAT_R8G8_UNORM}),
                              graph.image("label_measures", {width, height, VK_FORMAT_R32G32B32A32_SFLOAT})};
     engine::RasterPass& pass = graph.raster("labels");
@@ -42,30 +43,12 @@ LabelImages add_labels(engine::Graph& graph, const Head& head, std::span<const P
     return images;
 }
 
-Pinhole pinhole(const Camera& camera, std::uint32_t width, std::uint32_t height)
+shared::LabelCamera label_camera(const Camera& camera, const Canvas& canvas)
 {
-    const glm::dmat3 flip(1, 0, 0, 0, -1, 0, 0, 0, -1); // OpenGL's camera looks along -z with y up
-    const glm::dmat4 eye = eye_from_world(camera);
-    Pinhole result;
-    result.focal_px = 0.5 * height / std::tan(glm::radians(camera.fov_deg) / 2);
-    result.cx = 0.5 * width - 0.5;
-    result.cy = 0.5 * height - 0.5;
-    result.rotation = flip * glm::dmat3(eye);
-    result.translation_mm = 1e3 * (flip * glm::dvec3(eye[3]));
-    return result;
-}
-
-glm::dvec3 project(const Pinhole& camera, const glm::dvec3& point_m)
-{
-    const glm::dvec3 seen = camera.rotation * (1e3 * point_m) + camera.translation_mm;
-    return {camera.focal_px * seen.x / seen.z + camera.cx, camera.focal_px * seen.y / seen.z + camera.cy,
-            seen.z};
-}
-
-shared::LabelCamera label_camera(const Camera& camera, const Pinhole& pinhole)
-{
-    return {glm::vec3(camera.eye), glm::vec3(glm::transpose(pinhole.rotation)[2]),
-            float(1 / (pinhole.focal_px * pinhole.focal_px))};
+    const double pixel =
+        2 * std::tan(glm::radians(camera.fov_deg) / 2) / canvas.picture[1]; // 1 / fy = 1 / fx
+    return {glm::vec3(camera.eye), glm::vec3(glm::normalize(camera.target - camera.eye)),
+            float(pixel * pixel)};
 }
 
 LabelMaps label_maps(const cv::Mat2b& kinds, const cv::Mat4f& measures)

@@ -26,22 +26,11 @@ struct LabelImages
 
 /// Adds one raster pass "labels", which the graph drops when nobody reads it.
 LabelImages add_labels(engine::Graph& graph, const Head& head, std::span<const PlacedWound> wounds,
-                       const shared::View& view, const shared::LabelCamera& camera, std::uint32_t width,
-                       std::uint32_t height);
+                       const shared::View& view, const shared::LabelCamera& camera,
+                       std::array<std::uint32_t, 2> size);
 
-/// The camera as OpenCV has it: x right, y down, z forward; a point p of the head, in mm, is seen at
-/// K (rotation p + translation), and the centre of the first pixel is (0, 0).
-struct Pinhole
-{
-    double focal_px = 0; // fx = fy
-    double cx = 0, cy = 0;
-    glm::dmat3 rotation{1.0}; // glm: columns
-    glm::dvec3 translation_mm{0.0};
-};
-Pinhole pinhole(const Camera& camera, std::uint32_t width, std::uint32_t height);
-/// x, y in pixels, z in mm along the optical axis (not positive: behind the camera).
-glm::dvec3 project(const Pinhole& camera, const glm::dvec3& point_m);
-shared::LabelCamera label_camera(const Camera& camera, const Pinhole& pinhole);
+/// What the pass must know of the camera beside its view: how much a pixel holds.
+shared::LabelCamera label_camera(const Camera& camera, const Canvas& canvas);
 
 /// The labels of one frame on the CPU.
 struct LabelMaps

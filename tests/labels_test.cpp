@@ -4,6 +4,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/camera_record.hpp"
 #include "apps/stage.hpp"
 #include "engine/image_io.hpp"
 #include "passes/labels.hpp"
@@ -23,7 +24,8 @@ struct Labelled
     passes::LabelMaps maps;
     std::vector<passes::VisibleWound> visible;
     std::vector<passes::WoundSize> size;
-    passes::Pinhole camera;
+    nlohmann::json camera; // as capture.json has it
+    double focal_px() const { return camera.at("intrinsics").at("fx"); }
 };
 
 cv::Mat4f floats(const cv::Mat& halves)
@@ -62,7 +64,7 @@ Labelled labelled(const app::Stage& stage, double day, const passes::Camera& cam
                     {},
                     {},
                     {},
-                    passes::pinhole(camera, scene.size[0], scene.size[1])};
+                    app::camera_record(stage, camera, scene.size)};
     result.maps = passes::label_maps(result.kinds, result.measures);
     result.visible = passes::visible_wounds(result.kinds, result.measures, wounds.size());
     for (std::size_t i = 0; i < wounds.size(); ++i) {
@@ -121,7 +123,7 @@ TEST_F(Labels, OnAWallPixelsAndSurfaceAgreeWithTheDisc)
 {
     const app::Stage stage = stage_of(disc_scene(small::wall({.6f, .4f, .3f}), 40));
     const Labelled day = labelled(stage, 0, before_the_wall());
-    const double mm_per_px = day.maps.distance_mm(256, 256) / day.camera.focal_px;
+    const double mm_per_px = day.maps.distance_mm(256, 256) / day.focal_px();
     EXPECT_NEAR(day.size[0].inside_mm2 / disc_mm2(40), 1, .01);
     EXPECT_NEAR(day.size[0].bed_mm2 / disc_mm2(40), 1, .01);
     EXPECT_NEAR(day.visible[0].inside_mm2 / day.size[0].inside_mm2, 1, .01);
@@ -138,7 +140,7 @@ TEST_F(Labels, SeenFromTheSideTheSurfaceStaysAndThePixelsShrink)
     const app::Stage stage = stage_of(disc_scene(small::wall({.6f, .4f, .3f}), 40));
     const Labelled day = labelled(stage, 0, before_the_wall(60));
     EXPECT_NEAR(day.visible[0].inside_mm2 / disc_mm2(40), 1, .01);
-    const double mm_per_px = day.maps.distance_mm(256, 256) / day.camera.focal_px;
+    const double mm_per_px = day.maps.distance_mm(256, 256) / day.focal_px();
     EXPECT_NEAR(double(day.visible[0].bed_px) * mm_per_px * mm_per_px / disc_mm2(40), .5, .04);
 }
 
@@ -148,7 +150,7 @@ TEST_F(Labels, OnARoundHeadTheSurfaceIsLargerThanItsPicture)
     scene.wounds[0].place = passes::FacePoint{0, .35};
     const app::Stage stage = stage_of(scene);
     const Labelled day = labelled(stage, 0);
-    const double mm_per_px = day.maps.distance_mm(512, 512) / day.camera.focal_px;
+    const double mm_per_px = day.maps.distance_mm(512, 512) / day.focal_px();
     const double pictured = double(day.visible[0].bed_px) * mm_per_px * mm_per_px;
     EXPECT_GT(day.size[0].bed_mm2, 1.05 * disc_mm2(70)); // the flat disc is projected onto a curved head
     EXPECT_GT(day.size[0].bed_mm2, 1.1 * pictured);
@@ -200,19 +202,27 @@ TEST_F(Labels, TheCameraMatrixPutsKnownPointsOnTheirPixels)
     scene.size = {400, 300};
     const app::Stage stage = stage_of(scene);
     const Labelled day = labelled(stage, 0);
-    const glm::dvec3 centre = passes::project(day.camera, stage.anchors()[0].centre);
+    const nlohmann::json &pose = day.camera.at("camera_from_world"), &k = day.camera.at("intrinsics");
+    glm::dmat3 rotation;
+    glm::dvec3 translation;
+    for (int row = 0; row < 3; ++row) {
+        translation[row] = pose[row][3];
+        for (int column = 0; column < 3; ++column)
+            rotation[column][row] = pose[row][column];
+    }
+    const glm::dvec2 focal(k.at("fx"), k.at("fy")), principal(k.at("cx"), k.at("cy"));
+    const glm::dvec3 centre = rotation * stage.anchors()[0].centre + translation;
+    const glm::dvec2 at = focal * glm::dvec2(centre) / centre.z + principal;
     const cv::Moments moments = cv::moments(day.maps.wounds == 1, true);
-    EXPECT_NEAR(centre.x, moments.m10 / moments.m00, 1.5);
-    EXPECT_NEAR(centre.y, moments.m01 / moments.m00, 1.5);
-    EXPECT_NEAR(day.maps.distance_mm(cvRound(centre.y), cvRound(centre.x)), centre.z, .5);
-    EXPECT_NEAR(glm::determinant(day.camera.rotation), 1, 1e-12);
-    // Any pixel, taken back into the world by K, R, t and its distance, lies on the head.
+    EXPECT_NEAR(at.x, moments.m10 / moments.m00 + .5, 1.5); // a pixel's middle is half a pixel further
+    EXPECT_NEAR(at.y, moments.m01 / moments.m00 + .5, 1.5);
+    EXPECT_NEAR(day.maps.distance_mm(int(at.y), int(at.x)), 1e3 * centre.z, .5);
+    // Any pixel, taken back into the world by its distance, lies on the head.
     const cv::Point pixel(180, 140);
-    const double z = day.maps.distance_mm(pixel);
+    const double z = 1e-3 * day.maps.distance_mm(pixel);
     ASSERT_GT(z, 0);
-    const glm::dvec3 seen((pixel.x - day.camera.cx) * z / day.camera.focal_px,
-                          (pixel.y - day.camera.cy) * z / day.camera.focal_px, z);
-    const glm::dvec3 point = glm::transpose(day.camera.rotation) * (seen - day.camera.translation_mm) * 1e-3;
+    const glm::dvec3 seen((glm::dvec2(pixel.x + .5, pixel.y + .5) - principal) / focal * z, z);
+    const glm::dvec3 point = glm::transpose(rotation) * (seen - translation);
     double nearest = 1;
     for (const engine::Vertex& vertex : stage.head().vertices)
         nearest = std::min(nearest, glm::distance(glm::dvec3(vertex.position), point));
