@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "apps/bake.hpp"
+#include "passes/skin_under.hpp"
 #include "shaders/shared/shading.h"
 #include "wound/input_error.hpp"
 
@@ -269,6 +270,14 @@ void Stage::set_tissue(const wound::HealingTissue& tissue)
     set_.tissue = tissue;
     for (std::size_t i = 0; i < set_.wounds.size(); ++i)
         set_.wounds[i].tissue = make_lut(set_, set_.placed[set_.scene_wounds[i]].healing);
+}
+
+cv::Mat1f Stage::surface_mm2(std::size_t wound) const
+{
+    const passes::WoundMaps& maps = set_.wounds.at(wound).maps;
+    const cv::Mat1f all =
+        passes::surface_under(head(), set_.head->skin, set_.anchors[wound], maps.size);
+    return maps.region.empty() ? all : all(maps.region).clone();
 }
 
 std::vector<wound::WoundDay> Stage::wounds_on(double day) const

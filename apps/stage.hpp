@@ -54,6 +54,9 @@ class Stage
     const std::vector<wound::PreparedWound>& prepared() const { return set_.prepared; }
     const std::vector<std::size_t>& scene_wounds() const { return set_.scene_wounds; }
     const std::vector<passes::Anchor>& anchors() const { return set_.anchors; }
+    const engine::Model& head() const { return *set_.head->model; }
+    /// The head's surface in mm2 under each texel of a placed wound's maps of today (passes/skin_under.hpp).
+    cv::Mat1f surface_mm2(std::size_t wound) const;
 
     /// Shows another scene from the next declared frame on. Cheap enough for every event of a mouse that
     /// drags something. Throws cicatrix::InputError and stays as it is when a value is out of range, a wound

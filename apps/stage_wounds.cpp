@@ -9,6 +9,7 @@
 #include "apps/bake_head.hpp"
 #include "engine/image_io.hpp"
 #include "passes/head.hpp"
+#include "passes/skin_under.hpp"
 #include "shaders/shared/shading.h"
 #include "wound/drawn_region.hpp"
 #include "wound/input_error.hpp"
