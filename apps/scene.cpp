@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/json_fields.hpp"
+#include "apps/output.hpp"
 #include "apps/scene_camera.hpp"
 #include "shaders/shared/shading.h"
 #include "wound/fit.hpp"
@@ -324,6 +325,27 @@ Scene read_scene(const std::filesystem::path& path)
         scene.days = read_days(*days, file + "/days");
     fields.finish();
     return scene;
+}
+
+void save_scene(const std::filesystem::path& path, const Scene& scene)
+{
+    const std::filesystem::path folder = std::filesystem::absolute(path).lexically_normal().parent_path();
+    const auto named_from_there = [&](const std::filesystem::path& file) {
+        if (file.empty())
+            return file;
+        const std::filesystem::path whole = std::filesystem::absolute(file).lexically_normal();
+        const std::filesystem::path relative = whole.lexically_relative(folder);
+        return relative.empty() || *relative.begin() == ".." ? whole : relative;
+    };
+    Scene saved = scene;
+    saved.head = named_from_there(scene.head);
+    for (WoundScene& wound : saved.wounds) {
+        wound.photo = named_from_there(wound.photo);
+        wound.mask = named_from_there(wound.mask);
+    }
+    if (scene.tissue.ends_with(".json"))
+        saved.tissue = named_from_there(scene.tissue).string();
+    write_json(path, to_json(saved));
 }
 
 std::vector<double> parse_days(const std::string& text, const std::string& where)

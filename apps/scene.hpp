@@ -54,8 +54,9 @@ struct LightScene
 struct CameraScene
 {
     Direction from{18, 2};
-    double distance_m = 0; // from the face's middle; 0: such that the head fills the picture
-    double fov_deg = 20;   // vertical
+    double distance_m = 0;            // from the face's middle; 0: such that the head fills the picture
+    double fov_deg = 20;              // vertical
+    std::array<double, 3> target_m{}; // what it looks at, from the face's middle
     bool operator==(const CameraScene&) const = default;
 };
 
@@ -94,6 +95,11 @@ struct Scene
 Scene read_scene(const std::filesystem::path& path);
 /// The scene as JSON, all fields spelled out, as capture.json records it; read_scene reads it back.
 nlohmann::json to_json(const Scene& scene);
+
+/// Writes the scene as a file that read_scene reads back as an equal value. Files in the new file's folder or
+/// below are named relative to it, so that the folder can be moved; others absolutely. Throws
+/// cicatrix::InputError when it cannot be written.
+void save_scene(const std::filesystem::path& path, const Scene& scene);
 
 /// "0:30:3" (first:last:step) or "0,5,12"; 0 to 3650, at most 10000 days. Throws cicatrix::InputError naming
 /// `where`.

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
 
 #include "apps/bake.hpp"
 #include "passes/skin_under.hpp"
+#include "passes/split.hpp"
+#include "passes/surface.hpp"
 #include "shaders/shared/shading.h"
 #include "wound/input_error.hpp"
 
@@ -275,8 +278,7 @@ void Stage::set_tissue(const wound::HealingTissue& tissue)
 cv::Mat1f Stage::surface_mm2(std::size_t wound) const
 {
     const passes::WoundMaps& maps = set_.wounds.at(wound).maps;
-    const cv::Mat1f all =
-        passes::surface_under(head(), set_.head->skin, set_.anchors[wound], maps.size);
+    const cv::Mat1f all = passes::surface_under(head(), set_.head->skin, set_.anchors[wound], maps.size);
     return maps.region.empty() ? all : all(maps.region).clone();
 }
 
@@ -302,13 +304,48 @@ const std::vector<wound::WoundDay>& Stage::today(double day)
     return wounds_today_;
 }
 
-passes::Camera Stage::camera(const CameraScene& from) const
+double Stage::distance(const CameraScene& from) const
 {
     const double half_height = 0.98 * set_.head->face.unit_m; // from the neck to the crown
-    const double distance =
-        from.distance_m > 0 ? from.distance_m : half_height / std::tan(glm::radians(from.fov_deg) / 2);
-    const glm::dvec3 target = face_middle(set_.head->face);
-    return {target + distance * unit_towards(from.from), target, from.fov_deg};
+    return from.distance_m > 0 ? from.distance_m : half_height / std::tan(glm::radians(from.fov_deg) / 2);
+}
+
+passes::Camera Stage::camera(const CameraScene& from) const
+{
+    const glm::dvec3 target =
+        face_middle(set_.head->face) + glm::dvec3(from.target_m[0], from.target_m[1], from.target_m[2]);
+    return {target + distance(from) * unit_towards(from.from), target, from.fov_deg};
+}
+
+std::optional<glm::dvec3> Stage::pick(const passes::Camera& camera, double x, double y, double aspect) const
+{
+    const std::optional<passes::SurfacePoint> seen =
+        passes::first_on_ray(*set_.head->model, camera.eye, passes::sight_through(camera, x, y, aspect));
+    if (!seen || seen->material != set_.head->skin)
+        return std::nullopt;
+    return seen->at;
+}
+
+std::optional<std::size_t> Stage::wound_near(const glm::dvec3& point, double tolerance_m) const
+{
+    std::optional<std::size_t> found;
+    double nearest = 1;
+    for (std::size_t i = 0; i < set_.anchors.size(); ++i) {
+        const passes::Anchor& anchor = set_.anchors[i];
+        const glm::dvec3 from = (point - anchor.centre) / anchor.half_width_m;
+        const double height = glm::dot(from, anchor.normal);
+        if (std::abs(height) > passes::Anchor::reach)
+            continue;
+        const cv::Point2f at(float(glm::dot(from, anchor.right)), float(glm::dot(from, anchor.down)));
+        std::vector<cv::Point2f> border(set_.prepared[i].border.begin(), set_.prepared[i].border.end());
+        const double inside = cv::pointPolygonTest(border, at, true); // > 0 in it
+        const double distance = std::hypot(at.x, at.y);
+        if (inside * anchor.half_width_m >= -tolerance_m && (!found || distance < nearest)) {
+            found = set_.scene_wounds[i];
+            nearest = distance;
+        }
+    }
+    return found;
 }
 
 glm::dvec3 Stage::head_middle() const
@@ -363,6 +400,16 @@ passes::FrameImages Stage::declare(engine::Graph& graph, const passes::FrameInpu
         graph.keep(wound.maps.shape);
     }
     return passes::add_frame(graph, frame);
+}
+
+engine::ImageId declare_split(engine::Graph& graph, Stage& left, double left_day, Stage& right,
+                              double right_day, const passes::Canvas& canvas, double divider)
+{
+    const engine::ImageId first = left.declare(graph, left_day, canvas).picture;
+    graph.prefix("right ");
+    const engine::ImageId second = right.declare(graph, right_day, canvas).picture;
+    graph.prefix("");
+    return passes::add_split(graph, first, second, divider);
 }
 
 } // namespace app

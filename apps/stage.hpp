@@ -82,6 +82,8 @@ class Stage
     /// The scene's camera.
     passes::Camera camera() const { return camera(set_.scene.camera); }
     passes::Camera camera(const CameraScene& from) const;
+    /// From a scene's camera to what it looks at, metres; also when the scene leaves it to the head's size.
+    double distance(const CameraScene& from) const;
     /// Looks straight at a placed wound, or at the face's middle in a head without any.
     passes::Camera close_up(std::size_t wound) const;
 
@@ -90,6 +92,14 @@ class Stage
     glm::dvec3 head_middle() const;
     /// What a camera sees on a canvas.
     shared::View view(const passes::Camera& camera, const passes::Canvas& canvas) const;
+
+    /// The point of the skin, in the head's metres, that is seen at a place of the picture: x from -1 (left)
+    /// to 1, y from -1 (top) to 1. None where the head is not, or where an eye or a garment is. It is a place
+    /// for a wound as it stands.
+    std::optional<glm::dvec3> pick(const passes::Camera& camera, double x, double y, double aspect) const;
+    /// The scene's wound whose mask is at the point or at most `tolerance_m` beside it, the nearest of
+    /// several; none when there is none so near.
+    std::optional<std::size_t> wound_near(const glm::dvec3& point, double tolerance_m = 0.002) const;
 
     /// Declares the frame of one day. `canvas`: the picture's size, or one of its tiles. The forward
     /// pass runs every frame.
@@ -142,5 +152,10 @@ class Stage
     std::vector<Today> today_;
     std::vector<wound::WoundDay> wounds_today_;
 };
+
+/// Two stages in one picture: left of the divider (a share of the width, 0 to 1) the first, right of it the
+/// second. Moving the divider runs one small pass.
+engine::ImageId declare_split(engine::Graph& graph, Stage& left, double left_day, Stage& right,
+                              double right_day, const passes::Canvas& canvas, double divider);
 
 } // namespace app

@@ -41,6 +41,10 @@ glm::dmat4 view_from_world(const Camera& camera);
 /// these bounds.
 shared::View make_view(const Camera& camera, const Head& head, const Canvas& canvas);
 
+/// The direction, not of unit length, from the eye through a place of the picture: x from -1 (left) to 1, y
+/// from -1 (top) to 1.
+glm::dvec3 sight_through(const Camera& camera, double x, double y, double aspect);
+
 struct PlacedWound
 {
     Anchor anchor;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <limits>
 
+#include "passes/surface.hpp"
 #include "wound/input_error.hpp"
 
 namespace passes {
@@ -12,56 +13,10 @@ namespace {
 
 constexpr double reach = Anchor::reach;
 
-std::array<glm::vec3, 3> corners_of(const engine::Model& head, std::size_t first)
-{
-    return {head.vertices[head.indices[first]].position, head.vertices[head.indices[first + 1]].position,
-            head.vertices[head.indices[first + 2]].position};
-}
-
-/// Moeller & Trumbore 1997; distance along the unit direction, front faces only.
-std::optional<double> hit(const std::array<glm::vec3, 3>& t, const glm::dvec3& origin,
-                          const glm::dvec3& direction)
-{
-    const glm::dvec3 a(t[0]), ab = glm::dvec3(t[1]) - a, ac = glm::dvec3(t[2]) - a;
-    const glm::dvec3 p = glm::cross(direction, ac);
-    const double det = glm::dot(ab, p);
-    if (det <= 1e-18)
-        return std::nullopt;
-    const glm::dvec3 s = origin - a;
-    const double u = glm::dot(s, p) / det;
-    const glm::dvec3 q = glm::cross(s, ab);
-    const double v = glm::dot(direction, q) / det;
-    if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9)
-        return std::nullopt;
-    return glm::dot(ac, q) / det;
-}
-
-/// The first skin that a ray meets.
-std::optional<glm::dvec3> first_skin(const engine::Model& head, const glm::dvec3& origin,
-                                     const glm::dvec3& direction)
-{
-    std::optional<double> nearest;
-    for (std::size_t i = 0; i + 2 < head.indices.size(); i += 3)
-        if (const auto distance = hit(corners_of(head, i), origin, direction); distance && *distance >= 0)
-            nearest = std::min(nearest.value_or(*distance), *distance);
-    if (!nearest)
-        return std::nullopt;
-    return origin + *nearest * direction;
-}
-
 /// The first skin that a viewer in front of the face sees at (x, y).
-std::optional<glm::dvec3> seen_from_the_front(const engine::Model& head, double x, double y)
+std::optional<SurfacePoint> seen_from_the_front(const engine::Model& head, double x, double y)
 {
-    return first_skin(head, {x, y, double(head.max.z) + 1.0}, {0, 0, -1});
-}
-
-glm::dvec3 nearest_vertex(const engine::Model& head, const glm::dvec3& point)
-{
-    glm::dvec3 best(head.vertices.front().position);
-    for (const engine::Vertex& vertex : head.vertices)
-        if (glm::distance(glm::dvec3(vertex.position), point) < glm::distance(best, point))
-            best = glm::dvec3(vertex.position);
-    return best;
+    return first_on_ray(head, {x, y, double(head.max.z) + 1.0}, {0, 0, -1});
 }
 
 /// Mean of the vertex normals within `radius`, weighted by a smooth bump; those that face away from the
@@ -132,7 +87,7 @@ Anchor anchor_wound(const engine::Model& head, const FaceFrame& face, const Plac
     Anchor anchor;
     anchor.half_width_m = patch_width_mm * 0.5e-3;
     if (const auto* point = std::get_if<glm::dvec3>(&place)) {
-        anchor.centre = nearest_vertex(head, *point);
+        anchor.centre = nearest_on_surface(head, *point).at;
         if (const double off = glm::distance(anchor.centre, *point); off > 0.05)
             throw cicatrix::InputError(where, fmt::format("lies {:.0f} mm away from the head", off * 1e3),
                                        "give a point on the head in metres, or face coordinates [x, y]");
@@ -148,7 +103,7 @@ Anchor anchor_wound(const engine::Model& head, const FaceFrame& face, const Plac
             throw cicatrix::InputError(where,
                                        fmt::format("face coordinates [{:g}, {:g}] miss the head", at.x, at.y),
                                        "stay within about -0.5 to 0.5 across and -0.7 to 0.9 up");
-        anchor.centre = *seen;
+        anchor.centre = seen->at;
     }
     lay_on_skin(anchor, head, face);
     const glm::dvec3 up = std::abs(anchor.normal.y) > 0.95 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
@@ -167,15 +122,15 @@ Anchor anchor_beside(const engine::Model& head, const FaceFrame& face, const Anc
     const double distance = glm::length(offset_m), above = std::max(distance, first.half_width_m);
     const glm::dvec3 origin =
         first.centre + offset_m.x * first.right + offset_m.y * first.down + above * first.normal;
-    const auto found = first_skin(head, origin, -first.normal);
-    if (!found || glm::distance(*found, origin) > 2.5 * above)
+    const auto found = first_on_ray(head, origin, -first.normal);
+    if (!found || glm::distance(found->at, origin) > 2.5 * above)
         throw cicatrix::InputError(
             where,
             fmt::format("lies {:.0f} mm beside the largest one, where there is no skin", distance * 1e3),
             "give a smaller width_mm, another roll_deg or a place further from the head's edge");
     Anchor anchor;
     anchor.half_width_m = patch_width_mm * 0.5e-3;
-    anchor.centre = *found;
+    anchor.centre = found->at;
     lay_on_skin(anchor, head, face);
     anchor.down = glm::normalize(glm::cross(first.right, anchor.normal));
     anchor.right = glm::cross(anchor.normal, anchor.down);
