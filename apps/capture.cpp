@@ -143,7 +143,7 @@ class Capture
         std::vector<std::string> cost_lines;
         json record = header(device);
         if (!options_.no_cost)
-            record["cost"] = measure_cost(executor, stage, cost_lines);
+            record["cost"] = measure_cost(device, library, stage, cost_lines);
         record["first_picture_ms"] = *first_picture_ms_; // since the process started
         record["days"] = days_;
         writers_.push([&] {
