@@ -104,7 +104,7 @@ Model clustered(const Model& model, double share)
         const float cube = std::sqrt(fine * coarse);
         (double(triangle_count(clustered_by(model, cube))) > wanted ? fine : coarse) = cube;
     }
-    return clustered_by(model, fine);
+    return clustered_by(model, coarse);
 }
 
 Model with_small_pictures(Model model, int side)

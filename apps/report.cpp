@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
+#include <optional>
 
 #include "apps/machine.hpp"
 #include "apps/output.hpp"
+#include "apps/progress.hpp"
+#include "apps/renderer.hpp"
 #include "apps/report_cases.hpp"
 #include "apps/report_compare.hpp"
 #include "apps/report_json.hpp"
@@ -22,7 +24,7 @@ using nlohmann::json;
 struct ReportOptions : SceneOptions
 {
     std::filesystem::path out = "out/report", against;
-    int frames = 60;
+    std::optional<int> frames;
     std::vector<std::string> sweeps;
 };
 
@@ -50,6 +52,13 @@ json device_json(const engine::DeviceInfo& info)
             {"counts_invocations", info.statistics}};
 }
 
+const char* words_for(engine::Alignment alignment)
+{
+    return alignment == engine::Alignment::Calibrated ? "calibrated timestamps"
+           : alignment == engine::Alignment::Bounds   ? "submission and fence"
+                                                      : "nothing: the device has no timestamps";
+}
+
 /// The worst of all frames.
 json alignment_json(const std::vector<Measurement>& measurements)
 {
@@ -60,28 +69,23 @@ json alignment_json(const std::vector<Measurement>& measurements)
             alignment = frame.result.alignment;
             error_ms = std::max(error_ms, frame.result.alignment_error_ms);
         }
-    return {{"method", engine::name_of(alignment)}, {"error_ms", error_ms}};
+    return {{"method", engine::name_of(alignment)}, {"words", words_for(alignment)}, {"error_ms", error_ms}};
 }
 
-void show_progress(const std::string& what, int done, int all)
+/// Tells `progress` of every round.
+std::function<void(int)> rounds_of(Progress& progress, const std::string& what, const Rounds& rounds)
 {
-    if (::isatty(STDERR_FILENO))
-        fmt::print(stderr, "\r\033[K{}",
-                   done < all ? fmt::format("{}: round {} of {}", what, done, all) : "");
+    progress.expect(std::size_t(rounds.all()));
+    return [&progress, what](int) {
+        progress.step();
+        progress.show(what);
+    };
 }
 
 /// The device's name; a rasteriser that runs on the CPU is called that.
 std::string device_title(const engine::DeviceInfo& info)
 {
     return info.name + (info.software ? ", a software rasteriser" : "");
-}
-
-void fail_on_validation(const engine::Device& device)
-{
-    const std::vector<std::string> messages = device.validation_messages();
-    if (!messages.empty())
-        throw std::runtime_error(
-            fmt::format("{} validation messages; the first: {}", messages.size(), messages.front()));
 }
 
 void print_head(const json& facts)
@@ -93,10 +97,10 @@ void print_head(const json& facts)
                    ? "\na software rasteriser: what is called GPU below is this machine's processor"
                    : "");
     fmt::print("{} cores, load {:.1f} before and {:.1f} after; {}, {} triangles; GPU times aligned by {} "
-               "(within {:.3f} ms)\n",
+               "(within {:.2g} ms)\n",
                machine.at("cores").dump(), load.at("before").get<double>(), load.at("after").get<double>(),
                facts.at("settings").at("size").get<std::string>(), facts.at("head").at("triangles").dump(),
-               facts.at("alignment").at("method").get<std::string>(),
+               facts.at("alignment").at("words").get<std::string>(),
                facts.at("alignment").at("error_ms").get<double>());
     if (load.at("before") > machine.at("cores"))
         fmt::print("note: the machine was busy with other work when this began: times are upper bounds\n");
@@ -125,9 +129,11 @@ void sweep(const ReportOptions& options, const Scene& scene, const engine::Devic
 {
     facts["load"] = {{"before", load_average()}};
     json record = json::array();
+    Progress progress;
     for (const std::string& kind : options.sweeps) {
-        const Sweep measured = measure_sweep(kind, scene, device, library, rounds,
-                                             [&](int done) { show_progress(kind, done, rounds.all()); });
+        const Sweep measured =
+            measure_sweep(kind, scene, device, library, rounds, rounds_of(progress, kind, rounds));
+        progress.clear();
         engine::write_png(options.out / fmt::format("sweep_{}.png", kind),
                           draw_sweep(measured, device_title(device.info())));
         record.push_back(to_json(measured));
@@ -152,7 +158,7 @@ void report(const ReportOptions& options)
     make_folder(options.out);
     const engine::Device device(device_options(options));
     const engine::ShaderLibrary library;
-    const Rounds rounds{.timed = options.frames};
+    const Rounds rounds{.timed = options.frames.value_or(options.sweeps.empty() ? 60 : 15)};
     json facts = facts_of(options, scene, device, rounds);
     if (!options.sweeps.empty()) {
         sweep(options, scene, device, library, rounds, facts);
@@ -164,8 +170,10 @@ void report(const ReportOptions& options)
     cases.front().declare(first, 0);
     facts["head"] = {{"triangles", triangles_drawn(first)}};
     facts["load"] = {{"before", load_average()}};
-    const std::vector<Measurement> measurements = measure(
-        device, library, cases, rounds, [&](int done) { show_progress("report", done, rounds.all()); });
+    Progress progress;
+    const std::vector<Measurement> measurements =
+        measure(device, library, cases, rounds, rounds_of(progress, "frames of each case", rounds));
+    progress.clear();
     facts["load"]["after"] = load_average();
     facts["alignment"] = alignment_json(measurements);
     fail_on_validation(device);
@@ -198,9 +206,12 @@ void add_report_command(CLI::App& program)
         "report",
         "What each pass costs: table, page, JSON, trace; compared with an earlier one; cost against size");
     add_scene_options(*command, *options);
-    command->add_option("--frames", options->frames, "Frames measured of each case, after a warm-up")
+    command
+        ->add_option(
+            "--frames", options->frames,
+            "Frames measured of each case, after a warm-up (default 60), or of each step of a sweep (15)")
         ->check(CLI::Range(5, 10000))
-        ->capture_default_str();
+        ->type_name("N");
     command->add_option("--out", options->out, "Folder for report.html, report.json and trace.json")
         ->capture_default_str()
         ->type_name("DIR");

@@ -48,22 +48,25 @@ std::vector<MeasuredCase> report_cases(Stage& stage)
                        stage.declare(graph, stage.wounds_on(day), camera, now.shading, now.size).picture);
     };
     const wound::HealingTissue tissue = healing_tissue_or_file(scene.tissue);
-    return {{"still frame", "nothing changes",
-             [=, &stage](engine::Graph& graph, double) { declare(graph, first, stage.camera()); }},
-            {"moving camera", fmt::format("the camera goes {:g} degrees around the head", arc_deg),
-             [=, &stage](engine::Graph& graph, double position) {
-                 declare(graph, first, orbited(stage.camera(), arc_deg * position));
-             }},
-            {"moving day", fmt::format("the day goes from {:g} to {:g}", first, first + span),
-             [=, &stage](engine::Graph& graph, double position) {
-                 declare(graph, first + span * position, stage.camera());
-             }},
-            {"moving tissue", fmt::format("the tissue's absorption grows by {:g} %", 100 * tint),
-             [=, &stage](engine::Graph& graph, double position) {
-                 stage.set_tissue(tinted(tissue, 1 + tint * position));
-                 declare(graph, first, stage.camera());
-             },
-             [=, &stage] { stage.set_tissue(tissue); }}};
+    return {
+        {"still frame", "nothing changes",
+         [=, &stage](engine::Graph& graph, double) { declare(graph, first, stage.camera()); }},
+        {"moving camera", fmt::format("the camera goes {:g} degrees around the head", arc_deg),
+         [=, &stage](engine::Graph& graph, double position) {
+             declare(graph, first, orbited(stage.camera(), arc_deg * position));
+         }},
+        {"moving day", fmt::format("the day goes from {:g} to {:g}", first, first + span),
+         [=, &stage](engine::Graph& graph, double position) {
+             declare(graph, first + span * position, stage.camera());
+         }},
+        // On the first day a wound still has the photograph's colours, whatever the tissue.
+        {"moving tissue",
+         fmt::format("the tissue's absorption grows by {:g} %, on day {:g}", 100 * tint, first + span / 3),
+         [=, &stage](engine::Graph& graph, double position) {
+             stage.set_tissue(tinted(tissue, 1 + tint * position));
+             declare(graph, first + span / 3, stage.camera());
+         },
+         [=, &stage] { stage.set_tissue(tissue); }}};
 }
 
 std::size_t triangles_drawn(const engine::Graph& graph)

@@ -22,13 +22,13 @@ constexpr const char* head = R"(<!DOCTYPE html>
   --grid: #3a3c3f; --rest: #7c7c7c; --note: #453510; --slower: #ff7b66; --faster: #5cd39a;
   --c0: #e77b62; --c1: #6ba6ea; --c2: #77c787; --c3: #bb8fdd; --c4: #e8b44c; --c5: #53c4c4; --c6: #e68fc6;
   --c7: #b9b25c; --c8: #939ef0; --c9: #c79a7e; } }
-body { background: var(--paper); color: var(--ink); font: 15px/1.5 system-ui, sans-serif; max-width: 1000px;
+body { background: var(--paper); color: var(--ink); font: 15px/1.5 system-ui, sans-serif; max-width: 1080px;
   margin: 2em auto; padding: 0 1em; }
 h1 { font-size: 1.6em; } h2 { margin-top: 2em; border-bottom: 1px solid var(--grid); }
 h3 { font-size: 1em; margin-bottom: 0; }
 svg { width: 100%; display: block; } svg text { font: 12px system-ui, sans-serif; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: .5em 0; }
-th, td { text-align: right; padding: .15em .6em; border-bottom: 1px solid var(--grid); }
+table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; margin: .5em 0; }
+th, td { text-align: right; padding: .15em .5em; white-space: nowrap; border-bottom: 1px solid var(--grid); }
 th { color: var(--faint); font-weight: normal; } td:first-child, th:first-child, .words td { text-align: left; }
 .scroll { overflow-x: auto; } .note { background: var(--note); padding: .6em 1em; border-radius: 4px; }
 .slower { color: var(--slower); } .faster { color: var(--faster); } .faint { color: var(--faint); }
@@ -72,7 +72,7 @@ std::string facts_table(const json& facts)
     row("Frames", fmt::format("{} of each case, in turn, after {} of warm-up and {} for counting",
                               plain(settings["frames"]), plain(settings["warm_up_frames"]),
                               plain(settings["counted_frames"])));
-    row("Alignment", fmt::format("CPU and GPU by {}, within {:.3f} ms", plain(alignment["method"]),
+    row("Alignment", fmt::format("CPU and GPU by {}, within {:.2g} ms", plain(alignment["words"]),
                                  alignment["error_ms"].get<double>()));
     return table + "</table>\n";
 }

@@ -193,14 +193,14 @@ Steps points(const Scene& scene, const engine::Device& device, const Rounds& rou
     const wound::PreparedWound first = first_wound(*stage, "points");
     const wound::Healing healing = scene.wounds.front().healing;
     auto maps = std::make_shared<passes::WoundMaps>(passes::upload_wound(device, first.patch));
-    Steps steps{
-        .x_label = "control points",
-        .fixed = fmt::format("the scene's first wound, {0}x{0} texels; points evenly along its border. grid: "
-                             "the default warp; dense: the paper's thin plate in every texel",
-                             first.patch.mask.cols),
-        .prefixes = {"grid: ", "dense: "},
-        .declaring = "the day's warps, on the CPU",
-        .whole_frame = false};
+    Steps steps{.x_label = "control points",
+                .fixed = fmt::format(
+                    "the scene's first wound, {0}x{0} texels; points evenly along its border, beside "
+                    "the default warp; dense: the paper's thin plate in every texel",
+                    first.patch.mask.cols),
+                .prefixes = {"grid: ", "dense: "},
+                .declaring = "the day's warps, on the CPU",
+                .whole_frame = false};
     SweepSeries solving{"solving the flow, once per wound, on the CPU", {}, {}, {}};
     std::vector<std::shared_ptr<const wound::PreparedWound>> prepared;
     for (std::size_t count = 8; count <= 512; count *= 2) {

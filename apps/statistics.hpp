@@ -17,9 +17,10 @@ struct Spread
 /// None without samples.
 std::optional<Spread> spread_of(const std::vector<double>& samples);
 
-/// median(b) / median(a) and its interval by the moving-block bootstrap (Kunsch 1989): blocks of consecutive
-/// frames are drawn, because neighbours in time resemble each other and single ones would promise too much.
-/// `level`: probability that the interval misses, both sides together. Deterministic.
+/// median(b) / median(a) and its interval. The spread of its logarithm comes from the moving-block bootstrap
+/// (Kunsch 1989), which draws blocks of consecutive frames: neighbours in time resemble each other, and
+/// single ones would promise too much. The interval is Student's for as many blocks. `level`: probability
+/// that the interval misses, both sides together. Deterministic.
 struct RatioInterval
 {
     double ratio = 1, low = 1, high = 1;

@@ -83,7 +83,7 @@ Plot::Plot(const cv::Mat3b& picture, cv::Rect area, Range x, Range y, const std:
     for (double tick : ticks(y_)) {
         const int row = pixel({x_.low, tick}).y;
         cv::line(picture_, {inner_.x, row}, {inner_.br().x, row}, kGrid);
-        draw_text(picture_, fmt::format("{:.3g}", tick), {inner_.x - 46, row + 5}, kAxis);
+        draw_text(picture_, fmt::format("{:.4g}", tick), {inner_.x - 46, row + 5}, kAxis);
     }
     cv::rectangle(picture_, inner_, kAxis);
 }
