@@ -120,7 +120,7 @@ class Capture
             for (const View& view : views_)
                 record["films"].push_back(film(view));
         if (options_.cost)
-            record["cost"] = measure_cost(renderer_.executor, stage_, lines);
+            record["cost"] = measure_cost(renderer_.device, renderer_.library, stage_, lines);
         record["first_picture_ms"] = *first_picture_ms_; // since the process started
         record["days"] = days_;
         if (options_.sheet)

@@ -12,6 +12,7 @@
 #include "apps/graph_command.hpp"
 #include "apps/info.hpp"
 #include "apps/reflect.hpp"
+#include "apps/report.hpp"
 #include "apps/wound_commands.hpp"
 #include "apps/wound_measurements.hpp"
 
@@ -54,6 +55,7 @@ int main(int argc, char** argv)
     try {
         app::add_demo_command(program);
         app::add_capture_command(program);
+        app::add_report_command(program);
         app::add_graph_command(program);
         app::add_info_command(program);
         app::add_wound_command(program);
