@@ -70,6 +70,14 @@ void write_png(const std::filesystem::path& path, const cv::Mat1b& gray)
     write_encoded(path, encode_png(gray));
 }
 
+void write_exr(const std::filesystem::path& path, const cv::Mat1f& values)
+{
+    setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(".exr", values, bytes, {cv::IMWRITE_EXR_TYPE, cv::IMWRITE_EXR_TYPE_FLOAT});
+    write_encoded(path, bytes);
+}
+
 void write_exr(const std::filesystem::path& path, const cv::Mat3f& rgb)
 {
     // OpenCV keeps its OpenEXR codec locked (for fear of hostile files, which we do not read) until this is

@@ -20,6 +20,8 @@ void write_png(const std::filesystem::path& path, const cv::Mat4b& rgba);
 void write_png(const std::filesystem::path& path, const cv::Mat1b& gray);
 /// Linear light, 32-bit float.
 void write_exr(const std::filesystem::path& path, const cv::Mat3f& rgb);
+/// One channel, "Y", of any quantity, 32-bit float.
+void write_exr(const std::filesystem::path& path, const cv::Mat1f& values);
 
 /// The two halves of write_atomically that need no template.
 std::filesystem::path temporary_beside(const std::filesystem::path& path);
