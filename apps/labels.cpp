@@ -159,6 +159,8 @@ void LabelFiles::add(const Stage& stage, const Shot& shot, json& entry)
     json image{{"day", shot.day}};
     if (!shot.view.empty())
         frame["view"] = image["view"] = shot.view;
+    if (entry.contains("turn_deg"))
+        frame["turn_deg"] = image["turn_deg"] = entry.at("turn_deg");
     const int id = coco_.add_image(entry.at("file"), drawn.maps.kinds.size(), image);
     double deepest = 0;
     for (std::size_t i = 0; i < today.size(); ++i) {
