@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "shaders/shared/reflectance_lut.h"
 #include "wound/reflectance.hpp"
 #include "wound/skin_presets.hpp"
 
@@ -34,8 +35,8 @@ void bake(const BakeOptions& options, std::ostream& out);
 /// cicatrix/ in XDG_CACHE_HOME, else in ~/.cache.
 std::filesystem::path cache_folder();
 
-/// The open bed of the default healing curve.
-wound::TissueDay open_bed_on(const wound::HealingTissue& tissue, double day);
+/// The tissue of a part of the table (LUT_OPEN, LUT_COVERED) under the default healing curve.
+wound::TissueDay tissue_on(const wound::HealingTissue& tissue, shared::uint part, double day);
 
 /// One rung on one stack.
 struct Measured

@@ -113,25 +113,27 @@ ordered_json measure_table_sizes(const BakeOptions& options)
     const auto uniform = [&] { return std::uniform_real_distribution(0.0, 1.0)(random); };
     struct Sample
     {
+        shared::uint part;
         double depth, day;
         Color direct;
     };
     // Evenly over the table, each against the rung itself on that very day.
     const shared::LutAxes axes = passes::lut_rows(tissue, Healing{}, 2, options.last_day).axes;
     std::vector<Sample> samples;
-    for (int i = 0; i < 1000; ++i) {
+    for (shared::uint i = 0; i < 1000; ++i) {
+        const shared::uint part = i % shared::LUT_PARTS;
         const double u = uniform(), v = uniform(), depth = u * u * axes.deepest_mm,
                      day = v * v * options.last_day;
-        const Color direct = tissue_color(layers_at(open_bed_on(tissue, day), depth), Rung::Calibrated);
-        samples.push_back({depth, day, direct});
+        const Color direct = tissue_color(layers_at(tissue_on(tissue, part, day), depth), Rung::Calibrated);
+        samples.push_back({part, depth, day, direct});
     }
     ordered_json sizes = ordered_json::array();
     for (std::uint32_t size = 8; size <= 256; size *= 2) {
         const cv::Mat3f table = passes::bake_reflectance_table(
-            passes::lut_rows(tissue, Healing{}, size, options.last_day).open, size, Rung::Calibrated);
+            passes::lut_rows(tissue, Healing{}, size, options.last_day).days, size, Rung::Calibrated);
         double sum = 0, worst = 0;
         for (const Sample& s : samples) {
-            const double error = rms(passes::sample_table(table, axes, s.depth, s.day) - s.direct);
+            const double error = rms(passes::sample_table(table, axes, s.part, s.depth, s.day) - s.direct);
             sum += error * error;
             worst = std::max(worst, error);
         }
@@ -146,19 +148,20 @@ ordered_json measure_table_against_walk(const BakeOptions& options)
 {
     const HealingTissue tissue = healing_tissue_or_file(options.tissue);
     const passes::LutRows rows = passes::lut_rows(tissue, Healing{}, options.height, options.last_day);
-    const cv::Mat3f table = passes::cached_reflectance_table(cache_folder(), rows.open, options.width,
+    const cv::Mat3f table = passes::cached_reflectance_table(cache_folder(), rows.days, options.width,
                                                              options.rung, options.rung_options);
     std::mt19937 random(12);
     const auto uniform = [&] { return std::uniform_real_distribution(0.0, 1.0)(random); };
     double sum = 0, worst = 0;
-    constexpr int count = 12;
-    for (int i = 0; i < count; ++i) {
+    constexpr shared::uint count = 12;
+    for (shared::uint i = 0; i < count; ++i) {
+        const shared::uint part = i % shared::LUT_PARTS;
         const double u = uniform(), v = uniform(), depth = u * u * rows.axes.deepest_mm,
                      day = v * v * options.last_day;
-        const SkinLayers layers = layers_at(open_bed_on(tissue, day), depth);
+        const SkinLayers layers = layers_at(tissue_on(tissue, part, day), depth);
         RungOptions walk = options.rung_options;
         walk.photons = std::max<std::uint64_t>(1000, walk.photons * 3 / layers.channels());
-        const double error = rms(passes::sample_table(table, rows.axes, depth, day) -
+        const double error = rms(passes::sample_table(table, rows.axes, part, depth, day) -
                                  tissue_color(layers, Rung::MonteCarlo, walk));
         sum += error * error;
         worst = std::max(worst, error);

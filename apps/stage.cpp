@@ -169,7 +169,7 @@ Stage::Stage(const engine::Device& device, const Scene& scene, Props props)
         const passes::LutRows rows =
             passes::lut_rows(props_.tissue, scene_.wounds[i].healing, table_rows, last_day);
         wounds_.push_back({props_.anchors[i], passes::upload_wound(device, prepared_[i].patch),
-                           passes::lut_tissue(rows.open, last_day)});
+                           passes::lut_tissue(rows.days, last_day)});
         wounds_.back().maps.region = wound::drawn_region(prepared_[i], scene_.wounds[i].healing);
     }
     set_lights(scene_.lights);

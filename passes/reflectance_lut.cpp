@@ -52,12 +52,12 @@ LutRows lut_rows(const wound::HealingTissue& tissue, const wound::Healing& heali
     LutRows result;
     const double closed = wound::closure_day(healing.curve);
     for (std::size_t row = 0; row < rows; ++row) {
-        const double day = lut_row_day(row, rows, last_day),
-                     depth = wound::healing_at(healing, day).depth_scale;
-        result.open.push_back(wound::open_bed(tissue, day, depth));
-        result.covered.push_back(wound::covered_bed(tissue, day, depth, closed));
+        const double day = lut_row_day(row, rows, last_day);
+        result.days.push_back(wound::open_bed(tissue, day, wound::healing_at(healing, day).depth_scale));
     }
-    result.axes = {static_cast<float>(deepest_injury_mm(result.open.front().intact)),
+    for (std::size_t row = 0; row < rows; ++row)
+        result.days.push_back(wound::covered_bed(tissue, lut_row_day(row, rows, last_day), closed));
+    result.axes = {static_cast<float>(deepest_injury_mm(result.days.front().intact)),
                    static_cast<float>(last_day)};
     return result;
 }

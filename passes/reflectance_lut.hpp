@@ -27,23 +27,21 @@ struct LutTissue
 /// Day of a row, for those who fill `rows`.
 double lut_row_day(std::size_t row, std::size_t rows, double last_day);
 
-/// The tissue of a healing wound on every row's day, for the open bed and for what new epithelium has
-/// covered.
+/// The tissue of a healing wound on every row's day, as layers.
 struct LutRows
 {
-    std::vector<wound::TissueDay> open, covered;
+    std::vector<wound::TissueDay> days; // `rows` of the open bed, then as many of what is covered
     shared::LutAxes axes;
 };
 LutRows lut_rows(const wound::HealingTissue& tissue, const wound::Healing& healing, std::size_t rows,
                  double last_day);
 
-/// `rows`: the tissue on lut_row_day(0), (1), ..., with three channels and the same number of intact layers
-/// each.
+/// `rows`: LutRows::days, all with the same number of channels and of intact layers.
 LutTissue lut_tissue(std::span<const wound::TissueDay> rows, double last_day);
 
 struct ReflectanceLut
 {
-    engine::ImageId reflectance; // linear RGB, >= 0 and finite; u = injury depth, v = day
+    engine::ImageId reflectance; // linear RGB, >= 0 and finite; u = injury depth, v = part and day
 };
 
 /// `rung`: one that the shader knows, up to Calibrated; others are computed on the CPU

@@ -15,7 +15,7 @@ namespace passes {
 
 namespace {
 
-constexpr std::uint64_t table_version = 1; // raise when a rung's result or the mapping changes
+constexpr std::uint64_t table_version = 2; // raise when a rung's result or the mapping changes
 
 // FNV-1a over the bit patterns of everything a table depends on.
 class Key
@@ -153,10 +153,11 @@ engine::Texture upload_reflectance_table(const engine::Device& device, const cv:
     return engine::Texture(device, half, engine::Encoding::Linear, false, name);
 }
 
-wound::Color sample_table(const cv::Mat3f& table, const shared::LutAxes& axes, double injury_mm, double day)
+wound::Color sample_table(const cv::Mat3f& table, const shared::LutAxes& axes, shared::uint part,
+                          double injury_mm, double day)
 {
     const shared::vec2 size(static_cast<float>(table.cols), static_cast<float>(table.rows));
-    const shared::vec2 uv = lut_uv(axes, static_cast<float>(injury_mm), static_cast<float>(day), size);
+    const shared::vec2 uv = lut_uv(axes, part, static_cast<float>(injury_mm), static_cast<float>(day), size);
     const double x = uv.x * size.x - .5, y = uv.y * size.y - .5;
     const int x0 = std::clamp(static_cast<int>(std::floor(x)), 0, table.cols - 1),
               x1 = std::min(x0 + 1, table.cols - 1);

@@ -25,6 +25,7 @@ engine::Texture upload_reflectance_table(const engine::Device& device, const cv:
                                          const std::string& name);
 
 /// What bilinear sampling through lut_uv() returns.
-wound::Color sample_table(const cv::Mat3f& table, const shared::LutAxes& axes, double injury_mm, double day);
+wound::Color sample_table(const cv::Mat3f& table, const shared::LutAxes& axes, shared::uint part,
+                          double injury_mm, double day);
 
 } // namespace passes
