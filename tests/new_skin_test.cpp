@@ -49,10 +49,8 @@ struct Wall
         const passes::FrameImages images =
             stage.declare(graph, stage.wounds_on(day), camera, shading, stage.scene().size);
         graph.readback("picture", images.picture);
-        const auto radiance = std::ranges::find(graph.images, "radiance", &engine::Graph::Image::name);
-        const engine::ReadbackId ids[] = {
-            graph.readback("radiance", {std::uint32_t(radiance - graph.images.begin())}),
-            graph.readback("state", images.wounds[0].state)};
+        const engine::ReadbackId ids[] = {graph.readback("radiance", images.radiance),
+                                          graph.readback("state", images.wounds[0].state)};
         const engine::FrameResult frame = executor.run(graph);
         cv::Mat4f linear, state;
         frame.mat(ids[0]).convertTo(linear, CV_32F);
