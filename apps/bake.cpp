@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "apps/bake_pictures.hpp"
+#include "apps/progress.hpp"
 #include "engine/image_io.hpp"
 #include "passes/reflectance_table.hpp"
 #include "wound/healing.hpp"
@@ -82,13 +83,26 @@ std::filesystem::path cache_folder()
     return std::filesystem::temp_directory_path() / "cicatrix";
 }
 
+cv::Mat3f kept_table(const passes::LutRows& rows, std::uint32_t width, Rung rung, RungOptions options)
+{
+    Progress progress;
+    constexpr std::size_t steps = 100;
+    std::size_t done = 0;
+    progress.expect(steps);
+    options.progress = [&](double share) {
+        for (; static_cast<double>(done) < share * steps; ++done)
+            progress.step();
+        progress.show(fmt::format("reflectance table, {}", name(rung)));
+    };
+    return passes::cached_reflectance_table(cache_folder(), rows.days, width, rung, options);
+}
+
 void bake(const BakeOptions& options, std::ostream& out)
 {
     const HealingTissue tissue = healing_tissue_or_file(options.tissue);
     const passes::LutRows rows = passes::lut_rows(tissue, Healing{}, options.height, options.last_day);
     make_folder(options.out);
-    const cv::Mat3f table = passes::cached_reflectance_table(cache_folder(), rows.days, options.width,
-                                                             options.rung, options.rung_options);
+    const cv::Mat3f table = kept_table(rows, options.width, options.rung, options.rung_options);
     const auto height = static_cast<int>(options.height);
     const cv::Mat3f open = table.rowRange(0, height), covered = table.rowRange(height, 2 * height);
     engine::write_exr(options.out / "open_bed.exr", open);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "shaders/shared/reflectance_lut.h"
+#include "passes/reflectance_lut.hpp"
 #include "wound/reflectance.hpp"
 #include "wound/skin_presets.hpp"
 
@@ -31,6 +31,10 @@ wound::HealingTissue healing_tissue_or_file(const std::string& name);
 /// Writes the tables (EXR and a labelled picture) and the strip of colours over days; says what it wrote on
 /// `out`. Numerical rungs keep their tables in cache_folder().
 void bake(const BakeOptions& options, std::ostream& out);
+
+/// The table of any rung, from cache_folder() or baked and kept there, with progress on a terminal.
+cv::Mat3f kept_table(const passes::LutRows& rows, std::uint32_t width, wound::Rung rung,
+                     wound::RungOptions options);
 
 /// cicatrix/ in XDG_CACHE_HOME, else in ~/.cache.
 std::filesystem::path cache_folder();

@@ -8,12 +8,6 @@ namespace app {
 namespace {
 using nlohmann::json;
 
-double median(std::vector<double> values)
-{
-    std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(values.size() / 2));
-    return values[values.size() / 2];
-}
-
 struct Variant
 {
     const char* name;
@@ -33,6 +27,12 @@ std::vector<Variant> variants(const passes::Shading& everything)
 }
 
 } // namespace
+
+double median(std::vector<double> values)
+{
+    std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(values.size() / 2));
+    return values[values.size() / 2];
+}
 
 json measure_cost(engine::Executor& executor, const Stage& stage, std::vector<std::string>& lines, int rounds)
 {

@@ -9,6 +9,9 @@
 
 namespace app {
 
+/// Of at least one value.
+double median(std::vector<double> values);
+
 /// Draws the variants in turn, `rounds` times after a warm-up, and compares medians. `lines` receives what a
 /// person reads.
 nlohmann::json measure_cost(engine::Executor& executor, const Stage& stage, std::vector<std::string>& lines,

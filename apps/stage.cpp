@@ -7,6 +7,7 @@
 #include "apps/bake.hpp"
 #include "apps/bake_head.hpp"
 #include "engine/image_io.hpp"
+#include "passes/reflectance_table.hpp"
 #include "wound/drawn_region.hpp"
 #include "wound/input_error.hpp"
 #include "wound/prepare.hpp"
@@ -18,6 +19,8 @@ namespace {
 
 constexpr std::size_t table_rows =
     32; // as wide as high: the smallest table within .002 of direct evaluation (docs/optics.md)
+
+const wound::RungOptions scene_rung_options{.angles = 4, .photons = 2000}; // photons: per wavelength
 
 glm::dvec3 face_middle(const passes::FaceFrame& face)
 {
@@ -160,7 +163,7 @@ Stage::Props Stage::prepare(const Scene& scene)
 }
 
 Stage::Stage(const engine::Device& device, const Scene& scene, Props props)
-    : scene_(scene), props_(std::move(props)),
+    : device_(&device), scene_(scene), props_(std::move(props)),
       head_(passes::upload_head(device, *props_.head, props_.anchors))
 {
     for (std::size_t i = 0; i < props_.wounds.size(); ++i) {
@@ -192,7 +195,12 @@ passes::LutTissue Stage::table_tissue(std::size_t wound) const
     const double last_day = std::max(1.0, *std::ranges::max_element(scene_.days));
     const passes::LutRows rows =
         passes::lut_rows(props_.tissue, scene_.wounds[wound].healing, table_rows, last_day);
-    return passes::lut_tissue(rows.days, last_day);
+    passes::LutTissue tissue = passes::lut_tissue(rows.days, last_day);
+    if (scene_.reflectance_model > wound::Rung::Calibrated) // the shader does not know it
+        tissue.table = std::make_shared<engine::Texture>(passes::upload_reflectance_table(
+            *device_, kept_table(rows, table_rows, scene_.reflectance_model, scene_rung_options),
+            "reflectance table"));
+    return tissue;
 }
 
 void Stage::set_tissue(const wound::HealingTissue& tissue)

@@ -63,6 +63,7 @@ class Stage
   private:
     passes::LutTissue table_tissue(std::size_t wound) const;
 
+    const engine::Device* device_;
     Scene scene_;
     Props props_;
     std::vector<wound::PreparedWound> prepared_;

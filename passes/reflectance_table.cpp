@@ -108,9 +108,11 @@ cv::Mat3f bake_reflectance_table(std::span<const wound::TissueDay> rows, std::ui
     cv::Mat3f table(static_cast<int>(rows.size()), columns);
     const auto deepest = static_cast<float>(deepest_injury_mm(rows.front().intact));
     std::atomic<int> next{0};
+    const std::thread::id caller = std::this_thread::get_id();
     const auto work = [&] {
         wound::RungOptions alone = options;
         alone.threads = 1;
+        alone.progress = {};
         for (int i; (i = next++) < count;) {
             const int y = i / columns, x = i % columns;
             const float injury =
@@ -119,6 +121,8 @@ cv::Mat3f bake_reflectance_table(std::span<const wound::TissueDay> rows, std::ui
             const wound::Color color = wound::tissue_color(wound::layers_at(day, injury), rung, alone);
             for (int c = 0; c < 3; ++c) // as displayable() in shaders/lib/reflectance.glsl
                 table(y, x)[c] = color[c] > 0 ? static_cast<float>(std::min(color[c], 65504.0)) : 0.0f;
+            if (options.progress && std::this_thread::get_id() == caller)
+                options.progress(static_cast<double>(i + 1) / count);
         }
     };
     std::vector<std::jthread> threads;
