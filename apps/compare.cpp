@@ -204,13 +204,13 @@ void run_compare(const CompareOptions& options)
         days.push_back(record_of(shots[0][i], difference));
         if (i % stride == 0) {
             drawing.transparent = false;
+            const std::string view = shots[0][i].view.empty() ? "" : "   " + shots[0][i].view;
             rows.push_back(
                 {draw(renderer, a, shots[0][i], drawing).picture,
                  draw(renderer, b, shots[1][i], drawing).picture, difference.map, difference.head,
                  fmt::format(
-                     "day {:g}   {}   dE2000 on the head: mean {:.2f}, 95 % below {:.2f}, at most {:.2f}",
-                     shots[0][i].day, shots[0][i].view, difference.mean, difference.percentile_95,
-                     difference.max)});
+                     "day {:g}{}   dE2000 on the head: mean {:.2f}, 95 % below {:.2f}, at most {:.2f}",
+                     shots[0][i].day, view, difference.mean, difference.percentile_95, difference.max)});
         }
         top = std::max(top, difference.percentile_99_9);
         progress.step();
