@@ -16,17 +16,25 @@ shared::vec3 to_vec3(const glm::dvec3& v)
     return shared::vec3(v);
 }
 
-struct WoundUniform
+shared::WoundFrame wound_frame(const PlacedWound& wound)
 {
-    shared::WoundFrame frames[shared::MAX_WOUNDS];
-};
-
-WoundUniform wound_frames(std::span<const PlacedWound> wounds)
-{
-    WoundUniform uniform{};
-    for (std::size_t i = 0; i < wounds.size(); ++i)
-        uniform.frames[i] = wound_frame(wounds[i]);
-    return uniform;
+    const Anchor& anchor = wound.anchor;
+    const wound::WoundDay& today = *wound.today;
+    return {.centre = to_vec3(anchor.centre),
+            .half_width = float(anchor.half_width_m),
+            .right = to_vec3(anchor.right),
+            .reach = float(Anchor::reach),
+            .down = to_vec3(anchor.down),
+            .day = float(today.day),
+            .normal = to_vec3(anchor.normal),
+            .uv_scale = wound.texture.uv_scale,
+            .uv_offset = wound.texture.uv_offset,
+            .bed_recovery = float(today.bed_recovery),
+            .border_recovery = float(today.border_recovery),
+            .lut = wound.axes,
+            .epithelium = float(today.border_softness),
+            .pore_loss = float(today.scar.pore_loss),
+            .sheen = float(today.scar.sheen)};
 }
 
 shared::Part part_params(const HeadPart& part)
@@ -87,25 +95,12 @@ shared::View make_view(const Camera& camera, const Head& head, const Canvas& can
             to_vec3(camera.eye)};
 }
 
-shared::WoundFrame wound_frame(const PlacedWound& wound)
+WoundUniform wound_frames(std::span<const PlacedWound> wounds)
 {
-    const Anchor& anchor = wound.anchor;
-    const wound::WoundDay& today = *wound.today;
-    return {.centre = to_vec3(anchor.centre),
-            .half_width = float(anchor.half_width_m),
-            .right = to_vec3(anchor.right),
-            .reach = float(Anchor::reach),
-            .down = to_vec3(anchor.down),
-            .day = float(today.day),
-            .normal = to_vec3(anchor.normal),
-            .uv_scale = wound.texture.uv_scale,
-            .uv_offset = wound.texture.uv_offset,
-            .bed_recovery = float(today.bed_recovery),
-            .border_recovery = float(today.border_recovery),
-            .lut = wound.axes,
-            .epithelium = float(today.border_softness),
-            .pore_loss = float(today.scar.pore_loss),
-            .sheen = float(today.scar.sheen)};
+    WoundUniform uniform{};
+    for (std::size_t i = 0; i < wounds.size(); ++i)
+        uniform.frames[i] = wound_frame(wounds[i]);
+    return uniform;
 }
 
 engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, const shared::View& view,
