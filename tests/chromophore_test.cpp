@@ -137,6 +137,24 @@ TEST(HealingTimeline, BedIsRedderThanTheRingAndTheRingThanSkin)
     }
 }
 
+TEST(HealingTimeline, TissueOfATableGetsARedRingAsWell)
+{
+    const SkinLayers table = table1();
+    const Color intact = fast_color(table);
+    EXPECT_LT(cv::norm(fast_color(layers_at(covered_bed(table, 9, 21), 0)) - intact), 1e-12);
+    double before = 1e9;
+    for (double day : {5., 20., 60., 200., 700.}) {
+        const double ring = redness(fast_color(layers_at(covered_bed(table, day, 21), 1)));
+        EXPECT_GT(ring, redness(intact)) << day;
+        EXPECT_LT(ring, before) << day;
+        before = ring;
+    }
+    // Of one wavelength nobody knows how blood absorbs it.
+    const SkinLayers grey{
+        .layers = {{.name = "", .sigma_a = {.1}, .sigma_s_reduced = {1}, .thickness_mm = 2}}};
+    EXPECT_EQ(covered_bed(grey, 9, 21).regrown.sigma_a, grey.layers[0].sigma_a);
+}
+
 TEST(HealingTimeline, TheScarFadesTowardsSkin)
 {
     const HealingTissue light = skin(SkinTone::Light);

@@ -137,17 +137,15 @@ TissueDay open_bed(const HealingTissue& tissue, double day, double depth_scale)
 
 namespace {
 
-// The layer under the first is what has regrown, with a scar's excess of blood; the first, thinner, covers
-// it.
+// The layer under the first is what has regrown, with a scar's excess of blood; the first covers it, as thick
+// as it was: in a table it holds most of the skin's colour, whatever that is.
 TissueDay covered_table(const SkinLayers& table, double day, double closure_day)
 {
     TissueDay result = restored_skin(table, 0);
     result.regrown_ratio = 1;
     result.regrown = table.layers[table.layers.size() > 1 ? 1 : 0];
-    if (table.layers.size() > 1) {
+    if (table.layers.size() > 1)
         result.cover = table.layers[0];
-        result.cover.thickness_mm *= epithelium_thickness(day, closure_day);
-    }
     const ChromophoreSkin light = skin(SkinTone::Light);
     const Layer blood = chromophore_layer(
         "blood", {.blood = 1, .oxygenation = light.dermis.oxygenation, .baseline = 0}, 0, blood_index, 0);
