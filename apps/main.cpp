@@ -9,6 +9,7 @@
 #include "apps/bake_head.hpp"
 #include "apps/batch.hpp"
 #include "apps/capture.hpp"
+#include "apps/compare.hpp"
 #include "apps/demo.hpp"
 #include "apps/graph_command.hpp"
 #include "apps/info.hpp"
@@ -58,6 +59,7 @@ int main(int argc, char** argv)
         app::add_capture_command(program);
         app::add_report_command(program);
         app::add_batch_command(program);
+        app::add_compare_command(program);
         app::add_graph_command(program);
         app::add_info_command(program);
         app::add_wound_command(program);

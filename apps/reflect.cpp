@@ -72,6 +72,8 @@ void reflect(const ReflectOptions& options, std::ostream& out)
     if (channels.size() == wavelength_count) {
         const Color color = linear_rgb(channels);
         json["linear_rgb"] = {color[0], color[1], color[2]};
+        const Lab lab = lab_from_linear(color);
+        json["cielab"] = {lab.l, lab.a, lab.b}; // D65, 2 degrees
     }
     if (options.rung == Rung::Published)
         json["outside_domain"] = domain_report(tissue);

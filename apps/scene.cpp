@@ -135,14 +135,10 @@ LightScene read_light(const json& object, const std::string& where)
 
 wound::Rung read_rung(Fields& fields, wound::Rung fallback)
 {
-    const std::string chosen = fields.choice(
-        "reflectance_model", std::string(name(fallback)),
-        {"published", "clamped", "exponential", "two-stream-paper", "two-stream", "calibrated"});
-    for (const wound::Rung rung : {wound::Rung::Published, wound::Rung::Clamped, wound::Rung::Exponential,
-                                   wound::Rung::TwoStreamPaper, wound::Rung::TwoStream})
-        if (name(rung) == chosen)
-            return rung;
-    return wound::Rung::Calibrated;
+    std::vector<std::string> names;
+    for (const wound::Rung rung : wound::all_rungs())
+        names.emplace_back(name(rung));
+    return wound::rung_named(fields.choice("reflectance_model", std::string(name(fallback)), names));
 }
 
 /// An enum by the names of its values, in order.
