@@ -8,6 +8,7 @@
 #include "apps/bake_head.hpp"
 #include "engine/image_io.hpp"
 #include "shaders/shared/shading.h"
+#include "wound/drawn_region.hpp"
 #include "wound/input_error.hpp"
 #include "wound/prepare.hpp"
 #include "wound/skin_match.hpp"
@@ -202,10 +203,11 @@ Stage::Stage(const engine::Device& device, const Scene& scene, Props props)
     const double last_day = std::max(1.0, *std::ranges::max_element(scene_.days));
     for (std::size_t i = 0; i < props_.wounds.size(); ++i) {
         prepared_.push_back(props_.wounds[i].get());
-        const passes::LutRows rows = passes::lut_rows(
-            props_.tissue, scene_.wounds[props_.scene_wounds[i]].healing, table_rows, last_day);
+        const wound::Healing& healing = scene_.wounds[props_.scene_wounds[i]].healing;
+        const passes::LutRows rows = passes::lut_rows(props_.tissue, healing, table_rows, last_day);
         wounds_.push_back({props_.anchors[i], passes::upload_wound(device, prepared_[i].patch),
                            passes::lut_tissue(rows.open, last_day)});
+        wounds_.back().maps.region = wound::drawn_region(prepared_[i], healing);
     }
     set_lights(scene_.lights);
 }

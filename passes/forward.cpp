@@ -25,21 +25,8 @@ struct WoundUniform
 WoundUniform wound_frames(std::span<const PlacedWound> wounds)
 {
     WoundUniform uniform{};
-    for (std::size_t i = 0; i < wounds.size(); ++i) {
-        const Anchor& anchor = wounds[i].anchor;
-        const cv::Vec3f blood = wound::blood_absorbance;
-        uniform.frames[i] = {
-            to_vec3(anchor.centre),
-            float(anchor.half_width_m),
-            to_vec3(anchor.right),
-            float(Anchor::reach),
-            to_vec3(anchor.down),
-            float(wounds[i].day),
-            to_vec3(anchor.normal),
-            wounds[i].axes,
-            glm::exp(-1.4f * float(wounds[i].pink) * shared::vec3(blood[0], blood[1], blood[2])),
-            wounds[i].epithelium ? 1.0f : 0.0f};
-    }
+    for (std::size_t i = 0; i < wounds.size(); ++i)
+        uniform.frames[i] = wound_frame(wounds[i]);
     return uniform;
 }
 
@@ -93,6 +80,28 @@ shared::View make_view(const Camera& camera, const Head& head, double aspect)
     const glm::dvec3 up =
         std::abs(sight.y) > 0.999 * glm::length(sight) ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
     return {shared::mat4(projection * glm::lookAt(camera.eye, camera.target, up)), to_vec3(camera.eye)};
+}
+
+shared::WoundFrame wound_frame(const PlacedWound& wound)
+{
+    const Anchor& anchor = wound.anchor;
+    const wound::WoundDay& today = *wound.today;
+    const cv::Vec3f blood = wound::blood_absorbance;
+    return {.centre = to_vec3(anchor.centre),
+            .half_width = float(anchor.half_width_m),
+            .right = to_vec3(anchor.right),
+            .reach = float(Anchor::reach),
+            .down = to_vec3(anchor.down),
+            .day = float(today.day),
+            .normal = to_vec3(anchor.normal),
+            .uv_scale = wound.texture.uv_scale,
+            .uv_offset = wound.texture.uv_offset,
+            .bed_recovery = float(today.bed_recovery),
+            .border_recovery = float(today.border_recovery),
+            .lut = wound.axes,
+            .new_skin =
+                glm::exp(-1.4f * float(today.phase.pink) * shared::vec3(blood[0], blood[1], blood[2])),
+            .epithelium = today.in_phases ? 1.0f : 0.0f};
 }
 
 engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, const shared::View& view,

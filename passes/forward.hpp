@@ -42,10 +42,11 @@ struct PlacedWound
     WoundTexture texture;
     ReflectanceLut lut;
     shared::LutAxes axes; // of the lut
-    double day = 0;
-    double pink = 0;         // blood over the skin of newly closed wound, units of wound::blood_absorbance
-    bool epithelium = false; // new epithelium grows between bed and border
+    const wound::WoundDay* today = nullptr;
 };
+
+/// As the shaders read it (project_wound() and add_wound() in shaders/lib/wound_projection.glsl).
+shared::WoundFrame wound_frame(const PlacedWound& wound);
 
 struct ForwardInput
 {

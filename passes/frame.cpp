@@ -17,8 +17,7 @@ FrameImages add_frame(engine::Graph& graph, const FrameInput& input)
         const WoundTexture texture = add_wound_texture(graph, suffix, wound.maps, input.today[i]);
         const ReflectanceLut lut =
             add_reflectance_lut(graph, "reflectance_lut" + suffix, wound.tissue, input.reflectance);
-        placed.push_back({wound.anchor, texture, lut, wound.tissue.parameters.axes, input.today[i].day,
-                          input.today[i].phase.pink, input.today[i].in_phases});
+        placed.push_back({wound.anchor, texture, lut, wound.tissue.parameters.axes, &input.today[i]});
         images.wounds.push_back(texture);
     }
     ForwardInput forward{input.head, placed, input.lights, {}, {}};

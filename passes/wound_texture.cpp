@@ -26,25 +26,27 @@ WoundMaps upload_wound(const engine::Device& device, const wound::Patch& patch)
     maps.bed_luminance = wound::bed_luminance(patch);
     maps.width_mm = patch.width_mm;
     maps.size = patch.color.cols;
+    maps.region = cv::Rect({}, patch.color.size());
     return maps;
 }
 
 WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, const WoundMaps& maps,
                                const wound::WoundDay& today)
 {
-    const auto size = std::uint32_t(maps.size);
-    const engine::ImageDesc desc{size, size, VK_FORMAT_R16G16B16A16_SFLOAT};
-    const WoundTexture texture{graph.image("wound_color" + suffix, desc),
-                               graph.image("wound_state" + suffix, desc),
-                               graph.image("wound_relief" + suffix, desc)};
+    const auto width = std::uint32_t(maps.region.width), height = std::uint32_t(maps.region.height);
+    const engine::ImageDesc desc{width, height, VK_FORMAT_R16G16B16A16_SFLOAT};
+    const glm::dvec2 extent(maps.region.width, maps.region.height), begin(maps.region.x, maps.region.y);
+    const WoundTexture texture{
+        graph.image("wound_color" + suffix, desc), graph.image("wound_state" + suffix, desc),
+        graph.image("wound_relief" + suffix, desc), shared::vec2(0.5 * maps.size / extent),
+        shared::vec2((0.5 * maps.size - begin) / extent)};
 
     std::vector<shared::vec2> values;
     shared::WoundToday params{};
     params.border = wound::pack(today.border_warp, values);
     params.bed = wound::pack(today.bed_warp, values);
-    params.bed_recovery = float(today.bed_recovery);
-    params.border_recovery = float(today.border_recovery);
-
+    params.first_texel = {maps.region.x, maps.region.y};
+    params.border_softness = float(today.border_softness);
     params.bed_presence = float(today.bed_presence);
     params.phase = {float(today.phase.clot), float(today.phase.fibrin), float(today.phase.granulation),
                     float(today.phase.rim), float(maps.bed_luminance)};
@@ -61,7 +63,7 @@ WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, 
     warp.store("state", texture.state);
     warp.uniform("Today_", params);
     warp.buffer<shared::vec2>("WarpValues_", values);
-    warp.dispatch(size, size);
+    warp.dispatch(width, height);
 
     const double texel_mm = maps.width_mm / maps.size;
     engine::ComputePass& relief = graph.compute("wound_relief" + suffix, "wound_relief.comp");
@@ -71,7 +73,7 @@ WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, 
                    shared::Relief{float(today.depth_scale),
                                   today.in_phases ? float(today.scar.height_mm) : 0.0f, float(texel_mm),
                                   float(4.0 / texel_mm)}); // occlusion looks 4 mm far
-    relief.dispatch(size, size);
+    relief.dispatch(width, height);
     return texture;
 }
 

@@ -30,7 +30,7 @@ void main()
     const ivec2 size = imageSize(color);
     if (any(greaterThanEqual(texel, size)))
         return;
-    const vec2 p = (vec2(texel) + 0.5) * 2 / vec2(size) - 1;
+    const vec2 p = (vec2(texel + today.first_texel) + 0.5) * 2 / vec2(textureSize(day0_color, 0)) - 1;
 
     const vec2 from_border = warp_backward(RUNG, today.border, p);
     const float border_mip = mip_of(p, from_border, today.border.center);
@@ -45,7 +45,7 @@ void main()
     // New skin ends softly: its coverage comes from a mip level that blurs about a millimetre, once there is any new skin.
     if (PHASES)
         border_shape.g = mix(border_shape.g, textureLod(day0_shape, from_border * 0.5 + 0.5, border_mip + 3.5).g,
-                             clamp(20 * today.border_recovery, 0, 1));
+                             today.border_softness);
     if (PHASES)
     {
         day0.rgb = mix(day0.rgb, tinted(day0.rgb, today.phase), bed_shape.g);
@@ -53,5 +53,5 @@ void main()
     }
     bed_shape.g *= today.bed_presence;
     imageStore(color, texel, day0);
-    imageStore(state, texel, vec4(bed_shape.r, mix(today.border_recovery, today.bed_recovery, bed_shape.g), bed_shape.g, border_shape.g));
+    imageStore(state, texel, vec4(bed_shape.r, border_shape.r, bed_shape.g, border_shape.g));
 }

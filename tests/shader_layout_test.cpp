@@ -19,7 +19,9 @@ TEST(ShaderLayout, Frame)
                        {CICATRIX_MEMBER(WoundFrame, centre), CICATRIX_MEMBER(WoundFrame, half_width),
                         CICATRIX_MEMBER(WoundFrame, right), CICATRIX_MEMBER(WoundFrame, reach),
                         CICATRIX_MEMBER(WoundFrame, down), CICATRIX_MEMBER(WoundFrame, day),
-                        CICATRIX_MEMBER(WoundFrame, normal), CICATRIX_MEMBER(WoundFrame, lut),
+                        CICATRIX_MEMBER(WoundFrame, normal), CICATRIX_MEMBER(WoundFrame, uv_scale),
+                        CICATRIX_MEMBER(WoundFrame, uv_offset), CICATRIX_MEMBER(WoundFrame, bed_recovery),
+                        CICATRIX_MEMBER(WoundFrame, border_recovery), CICATRIX_MEMBER(WoundFrame, lut),
                         CICATRIX_MEMBER(WoundFrame, new_skin), CICATRIX_MEMBER(WoundFrame, epithelium)});
 }
 
@@ -88,8 +90,8 @@ TEST(ShaderLayout, Wound)
                         CICATRIX_MEMBER(BedPhase, bed_luminance)});
     gpu::expect_layout("wound_texture.comp", "WoundToday", sizeof(WoundToday),
                        {CICATRIX_MEMBER(WoundToday, border), CICATRIX_MEMBER(WoundToday, bed),
-                        CICATRIX_MEMBER(WoundToday, bed_recovery),
-                        CICATRIX_MEMBER(WoundToday, border_recovery),
+                        CICATRIX_MEMBER(WoundToday, first_texel),
+                        CICATRIX_MEMBER(WoundToday, border_softness),
                         CICATRIX_MEMBER(WoundToday, bed_presence), CICATRIX_MEMBER(WoundToday, phase)});
     gpu::expect_layout("wound_relief.comp", "Relief", sizeof(Relief),
                        {CICATRIX_MEMBER(Relief, depth_scale), CICATRIX_MEMBER(Relief, scar_mm),

@@ -10,6 +10,7 @@
 #include "engine/image_compare.hpp"
 #include "passes/wound_texture.hpp"
 #include "tests/gpu.hpp"
+#include "wound/drawn_region.hpp"
 #include "wound/prepare.hpp"
 #include "wound/synthetic.hpp"
 
@@ -189,9 +190,42 @@ TEST_F(WoundTextureOnGpu, NoDayGivesAnythingButColorsAndShares)
         for (const cv::Mat1f& channel : color)
             ASSERT_TRUE(cv::checkRange(channel, true, nullptr, 0, 1.001))
                 << name << ": a colour or the opacity leaves 0..1";
-        for (int share : {1, 2, 3})
+        for (int share : {2, 3})
             ASSERT_TRUE(cv::checkRange(state[share], true, nullptr, 0, 1.001))
                 << name << ": a share leaves 0..1, channel " << share;
+    }
+}
+
+// What is left out has no opacity on any day, and what is drawn is what the whole patch would have been
+// there.
+TEST_F(WoundTextureOnGpu, OnlyTheWoundsOwnRegionIsDrawn)
+{
+    engine::Executor executor(gpu::device(), gpu::shaders());
+    wound::Healing face, contraction, growing;
+    contraction.model = wound::HealingModel::contraction;
+    growing.model = wound::HealingModel::contraction;
+    growing.curve.theta = -.4; // to 1.4 of its area, then it heals
+    for (const wound::Photograph& photograph : {wound::synthesize({}), irregular_photograph()}) {
+        wound::PreparedWound wound = prepared(photograph, 128);
+        wound.patch.opacity.setTo(0, wound.patch.opacity < .05f); // its edge lies where something can be seen
+        passes::WoundMaps maps = passes::upload_wound(gpu::device(), wound.patch);
+        for (const wound::Healing& healing : {face, contraction, growing}) {
+            const cv::Rect whole = maps.region, region = wound::drawn_region(wound, healing);
+            EXPECT_LT(region.area(), .9 * whole.area());
+            for (const double day : {0., .5, 1., 3., 8., 20., 27., 60., 400.}) {
+                const wound::WoundDay today = wound::wound_at(wound, healing, day);
+                const Maps all = draw(executor, maps, today);
+                maps.region = region;
+                const Maps part = draw(executor, maps, today);
+                maps.region = whole;
+                cv::Mat1f opacity;
+                cv::extractChannel(all.color, opacity, 3);
+                EXPECT_EQ(cv::norm(part.color, all.color(region), cv::NORM_INF), 0) << "day " << day;
+                EXPECT_EQ(cv::norm(part.state, all.state(region), cv::NORM_INF), 0) << "day " << day;
+                opacity(region).setTo(0);
+                EXPECT_EQ(cv::countNonZero(opacity), 0) << "day " << day << ", region " << region;
+            }
+        }
     }
 }
 

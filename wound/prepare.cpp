@@ -264,6 +264,7 @@ WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day
         if (const ScarState scar = scar_at(healing, day);
             scar.months > 0) // the rest of the way goes with the scar's redness
             result.border_recovery = 1 - (1 - result.border_recovery) * scar.redness / scar_after(0).redness;
+        result.border_softness = std::min(5 * state.recovery_ratio, 1.);
         result.in_phases = true;
         result.phase = phase_at(day, closure_day(healing.curve));
     }

@@ -38,6 +38,7 @@ struct WoundDay
     double recovery_ratio = 0;  // 1 - unhealed_ratio, clamped to 0..1
     double bed_recovery = 0;    // r of eq. (4) in the open bed
     double border_recovery = 0; // r of eq. (4) on new epithelium and in the rim
+    double border_softness = 0; // 0 the border is the photograph's, 1 that of new skin, which ends softly
     double depth_scale = 1;     // sqrt(unhealed_ratio), at most 1
     bool in_phases = false; // the bed's colour passes through the phases of healing, not only through eq. (4)
     Phase phase;

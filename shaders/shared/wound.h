@@ -20,8 +20,8 @@ struct WoundToday
 {
     WarpHeader border;      // today's patch -> day 0, for what lies inside the outer border
     WarpHeader bed;         // the same for the open bed
-    float bed_recovery;     // r of eq. (4) in the open bed
-    float border_recovery;  // r of eq. (4) elsewhere: on new epithelium and in the rim
+    ivec2 first_texel;      // of the patch, where the images begin: they hold only what is ever drawn
+    float border_softness;  // 0 the border is the photograph's, 1 that of new skin, which ends softly
     float bed_presence;     // 1 until closure, then 0: the last of the bed fades
     BedPhase phase;
 };

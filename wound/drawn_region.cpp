@@ -1,0 +1,75 @@
+#include "wound/drawn_region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace wound {
+
+namespace {
+
+constexpr double kMargin =
+    2; // texels: bilinear sampling, and the quarter texel by which the warps' rungs differ
+
+/// Smallest and largest ratio of the area inside the border over all days.
+std::pair<double, double> border_ratios(const Healing& healing)
+{
+    double least = 1, largest = 1;
+    for (double day = 1e-3; day < 1e9; day *= 1.1) {
+        const double ratio = healing_at(healing, day).border_ratio;
+        least = std::min(least, ratio);
+        largest = std::max(largest, ratio);
+    }
+    return {least, largest};
+}
+
+/// Whether any texel on the rectangle's outline shows something of day 0 under the warp. The warp is a
+/// homeomorphism of the patch that keeps its frame, so when the outline shows nothing, nothing outside it
+/// does.
+bool outline_shows(const cv::Rect& region, const Warp& warp, const cv::Mat1f& to_opaque)
+{
+    const int n = to_opaque.rows;
+    const auto shows = [&](int x, int y) {
+        const cv::Point2d today((x + .5) * 2 / n - 1, (y + .5) * 2 / n - 1), day0 = warp.apply(today);
+        // The shader blurs where many texels of day 0 meet in one of today's.
+        const double blur = std::max(1., cv::norm(day0 - warp.centroid) / cv::norm(today - warp.centroid));
+        const auto texel = [&](double t) { return std::clamp(int((t + 1) * n / 2), 0, n - 1); };
+        return to_opaque(texel(day0.y), texel(day0.x)) < kMargin * blur;
+    };
+    constexpr int step = 4; // texels; the map is smooth out here
+    for (int x = region.x; x < region.br().x; x += step)
+        if ((region.y > 0 && shows(x, region.y)) || (region.br().y < n && shows(x, region.br().y - 1)))
+            return true;
+    for (int y = region.y; y < region.br().y; y += step)
+        if ((region.x > 0 && shows(region.x, y)) || (region.br().x < n && shows(region.br().x - 1, y)))
+            return true;
+    return false;
+}
+
+} // namespace
+
+cv::Rect drawn_region(const PreparedWound& wound, const Healing& healing)
+{
+    const cv::Mat1f& opacity = wound.patch.opacity;
+    const cv::Rect patch({}, opacity.size());
+    cv::Mat1f to_opaque;
+    cv::distanceTransform(opacity <= 0, to_opaque, cv::DIST_L2, cv::DIST_MASK_3);
+    const auto grown = [&](const cv::Rect& rect, int by) {
+        return cv::Rect(rect.tl() - cv::Point(by, by), rect.br() + cv::Point(by, by)) & patch;
+    };
+    cv::Rect region = grown(cv::boundingRect(opacity > 0), 2 * int(kMargin));
+    if (region.empty())
+        return {patch.width / 2, patch.height / 2, 1, 1};
+
+    const auto [least, largest] = border_ratios(healing);
+    constexpr double finer = .75; // between the ratios that are looked at
+    for (double ratio = largest;; ratio = std::max(least, finer * ratio)) {
+        const Warp warp = make_warp(wound.flow, ratio, WarpRung::composed);
+        while (region != patch && outline_shows(region, warp, to_opaque))
+            region = grown(region, std::max(1, patch.width / 64));
+        if (ratio <= std::max(least, kSmallestScale * kSmallestScale) || region == patch)
+            return region;
+    }
+}
+
+} // namespace wound
