@@ -200,14 +200,11 @@ Stage::Stage(const engine::Device& device, const Scene& scene, Props props)
     : scene_(scene), props_(std::move(props)),
       head_(passes::upload_head(device, *props_.head, props_.anchors))
 {
-    const double last_day = std::max(1.0, *std::ranges::max_element(scene_.days));
     for (std::size_t i = 0; i < props_.wounds.size(); ++i) {
         prepared_.push_back(props_.wounds[i].get());
-        const wound::Healing& healing = scene_.wounds[props_.scene_wounds[i]].healing;
-        const passes::LutRows rows = passes::lut_rows(props_.tissue, healing, table_rows, last_day);
-        wounds_.push_back({props_.anchors[i], passes::upload_wound(device, prepared_[i].patch),
-                           passes::lut_tissue(rows.open, last_day)});
-        wounds_.back().maps.region = wound::drawn_region(prepared_[i], healing);
+        wounds_.push_back(
+            {props_.anchors[i], passes::upload_wound(device, prepared_[i].patch), table_tissue(i)});
+        wounds_.back().maps.region = wound::drawn_region(prepared_[i], healing(i));
     }
     set_lights(scene_.lights);
 }
@@ -227,11 +224,30 @@ void Stage::set_lights(const std::vector<LightScene>& lights)
     lights_ = std::move(made);
 }
 
+passes::LutTissue Stage::table_tissue(std::size_t wound) const
+{
+    const double last_day = std::max(1.0, *std::ranges::max_element(scene_.days));
+    const passes::LutRows rows = passes::lut_rows(props_.tissue, healing(wound), table_rows, last_day);
+    return passes::lut_tissue(rows.open, last_day);
+}
+
+void Stage::set_tissue(const wound::HealingTissue& tissue)
+{
+    props_.tissue = tissue;
+    for (std::size_t i = 0; i < wounds_.size(); ++i)
+        wounds_[i].tissue = table_tissue(i);
+}
+
+const wound::Healing& Stage::healing(std::size_t wound) const
+{
+    return scene_.wounds[props_.scene_wounds[wound]].healing;
+}
+
 std::vector<wound::WoundDay> Stage::wounds_on(double day) const
 {
     std::vector<wound::WoundDay> today;
     for (std::size_t i = 0; i < prepared_.size(); ++i)
-        today.push_back(wound::wound_at(prepared_[i], scene_.wounds[props_.scene_wounds[i]].healing, day));
+        today.push_back(wound::wound_at(prepared_[i], healing(i), day));
     return today;
 }
 

@@ -44,6 +44,9 @@ class Stage
     /// From the next frame on. Throws cicatrix::InputError and keeps the old ones when one is out of range.
     void set_lights(const std::vector<LightScene>& lights);
 
+    /// The same for the tissue that gives the wounds their colours: any, not only one that a scene can name.
+    void set_tissue(const wound::HealingTissue& tissue);
+
     /// The scene's camera.
     passes::Camera camera() const;
     /// Looks straight at a wound, or at the face's middle in a head without any.
@@ -55,6 +58,9 @@ class Stage
                                 std::array<std::uint32_t, 2> size) const;
 
   private:
+    const wound::Healing& healing(std::size_t wound) const; // of a placed wound
+    passes::LutTissue table_tissue(std::size_t wound) const;
+
     Scene scene_;
     Props props_;
     std::vector<wound::PreparedWound> prepared_;

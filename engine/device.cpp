@@ -5,6 +5,7 @@
 #include "wound/input_error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
@@ -187,6 +188,10 @@ void Device::create_device(const DeviceOptions& options)
                                          .scalarBlockLayout = VK_TRUE};
     VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &v12};
     features.features.shaderStorageImageExtendedFormats = VK_TRUE;
+    features.features.pipelineStatisticsQuery = physical.info.statistics ? VK_TRUE : VK_FALSE;
+    std::vector<const char*> extensions = options.device_extensions;
+    if (physical.info.calibrated)
+        extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
 
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue_info{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
@@ -197,11 +202,35 @@ void Device::create_device(const DeviceOptions& options)
                                   .pNext = &features,
                                   .queueCreateInfoCount = 1,
                                   .pQueueCreateInfos = &queue_info,
-                                  .enabledExtensionCount =
-                                      static_cast<std::uint32_t>(options.device_extensions.size()),
-                                  .ppEnabledExtensionNames = options.device_extensions.data()};
+                                  .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                                  .ppEnabledExtensionNames = extensions.data()};
     check(vkCreateDevice(physical.handle, &info, nullptr, &vk_device), "create a Vulkan device");
     vkGetDeviceQueue(vk_device, physical.queue_family, 0, &vk_queue);
+}
+
+double Device::milliseconds(std::uint64_t from_tick, std::uint64_t to_tick) const
+{
+    const std::uint32_t bits = timestamp_bits();
+    const std::uint64_t mask = bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
+    return static_cast<double>((to_tick - from_tick) & mask) * static_cast<double>(limits().timestampPeriod) *
+           1e-6;
+}
+
+std::optional<Device::Calibration> Device::calibrate() const
+{
+    if (!info().calibrated)
+        return std::nullopt;
+    // std::chrono::steady_clock is CLOCK_MONOTONIC wherever Vulkan has this time domain.
+    constexpr std::array<VkCalibratedTimestampInfoEXT, 2> clocks{
+        {{.sType = VK_STRUCTURE_TYPE_CALIBRATED_TIMESTAMP_INFO_EXT, .timeDomain = VK_TIME_DOMAIN_DEVICE_EXT},
+         {.sType = VK_STRUCTURE_TYPE_CALIBRATED_TIMESTAMP_INFO_EXT,
+          .timeDomain = VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT}}};
+    std::array<std::uint64_t, 2> values{};
+    std::uint64_t deviation_ns = 0;
+    check(vkGetCalibratedTimestampsEXT(vk_device, clocks.size(), clocks.data(), values.data(), &deviation_ns),
+          "read the device's clock");
+    return Calibration{values[0], std::chrono::steady_clock::time_point(std::chrono::nanoseconds(values[1])),
+                       static_cast<double>(deviation_ns) * 1e-6};
 }
 
 std::uint32_t Device::memory_type(std::uint32_t allowed_types,

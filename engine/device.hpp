@@ -3,9 +3,11 @@
 #pragma once
 #include "engine/device_choice.hpp"
 
+#include <chrono>
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 #include <volk.h>
@@ -38,6 +40,17 @@ class Device
     VkQueue queue() const { return vk_queue; }
     std::uint32_t queue_family() const { return physical.queue_family; }
     std::uint32_t timestamp_bits() const { return info().timestamps ? physical.timestamp_bits : 0; }
+
+    /// From one of the device's ticks to a later one, right across a wrap, too.
+    double milliseconds(std::uint64_t from_tick, std::uint64_t to_tick) const;
+    /// One moment as the device and as the host see it. None on a device that cannot tell.
+    struct Calibration
+    {
+        std::uint64_t ticks = 0;
+        std::chrono::steady_clock::time_point host;
+        double deviation_ms = 0; // at most so far apart
+    };
+    std::optional<Calibration> calibrate() const;
 
     /// The first memory type among `allowed_types` with all properties of the first wish that can be granted.
     std::uint32_t memory_type(std::uint32_t allowed_types,

@@ -24,8 +24,8 @@ struct Features
     VkPhysicalDeviceFeatures2 v10{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &v12};
 };
 
-/// Features we cannot do without. All others (64-bit floats, descriptor indexing, pipeline statistics, push
-/// descriptors) are missing on one software driver or another and are not used.
+/// Features we cannot do without. All others (64-bit floats, descriptor indexing, push descriptors) are
+/// missing on one software driver or another and are not used; what only measures is used where it is there.
 struct Requirement
 {
     const char* name;
@@ -83,10 +83,31 @@ void find_queue_family(PhysicalDevice& device)
     device.info.timestamps = family->timestampValidBits > 0 && device.properties.limits.timestampPeriod > 0;
 }
 
+/// Whether the device's ticks and the host's monotonic clock can be read together.
+bool has_calibrated_timestamps(VkPhysicalDevice handle)
+{
+    std::uint32_t count = 0;
+    check(vkEnumerateDeviceExtensionProperties(handle, nullptr, &count, nullptr), "list the extensions");
+    std::vector<VkExtensionProperties> extensions(count);
+    check(vkEnumerateDeviceExtensionProperties(handle, nullptr, &count, extensions.data()),
+          "list the extensions");
+    if (std::ranges::none_of(extensions, [](const VkExtensionProperties& extension) {
+            return std::string_view(extension.extensionName) == VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME;
+        }))
+        return false;
+    check(vkGetPhysicalDeviceCalibrateableTimeDomainsEXT(handle, &count, nullptr), "list the clocks");
+    std::vector<VkTimeDomainEXT> clocks(count);
+    check(vkGetPhysicalDeviceCalibrateableTimeDomainsEXT(handle, &count, clocks.data()), "list the clocks");
+    const auto has = [&](VkTimeDomainEXT clock) { return std::ranges::count(clocks, clock) > 0; };
+    return has(VK_TIME_DOMAIN_DEVICE_EXT) && has(VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT);
+}
+
 void check_requirements(PhysicalDevice& device)
 {
     Features features;
     vkGetPhysicalDeviceFeatures2(device.handle, &features.v10);
+    device.info.statistics = features.v10.features.pipelineStatisticsQuery == VK_TRUE;
+    device.info.calibrated = device.info.timestamps && has_calibrated_timestamps(device.handle);
     for (const Requirement& requirement : required_features)
         if (!requirement.met(features))
             device.info.missing.push_back(requirement.name);
@@ -228,6 +249,10 @@ std::string to_text(const std::vector<PhysicalDevice>& devices)
         text += fmt::format("   Vulkan      {}\n", version_text(info.api_version));
         text += fmt::format("   memory      {:.1f} GiB\n", info.memory_gib);
         text += fmt::format("   timestamps  {}\n", info.timestamps ? "yes" : "no: passes have no GPU times");
+        text += fmt::format("   aligned     {}\n", info.calibrated
+                                                       ? "yes, timestamps as moments of the host's clock"
+                                                       : "no, within submission and fence");
+        text += fmt::format("   counts      {}\n", info.statistics ? "shader invocations" : "none");
         text += fmt::format("   samples     {}\n", fmt::join(info.sample_counts, ", "));
         text += info.missing.empty()
                     ? "   fit         yes\n"

@@ -16,6 +16,8 @@ struct DeviceInfo
     std::uint32_t api_version = 0; // VK_API_VERSION
     double memory_gib = 0;         // of all heaps on the device
     bool timestamps = false;
+    bool statistics = false;                  // shader invocations can be counted
+    bool calibrated = false;                  // its timestamps can be told as moments of the host's clock
     std::vector<std::uint32_t> sample_counts; // of colour and depth targets
     bool software = false;                    // a rasteriser that runs on the CPU
     std::vector<std::string> missing;         // requirements it does not meet; empty: fit

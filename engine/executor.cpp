@@ -18,9 +18,35 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double milliseconds_since(Clock::time_point start)
+double milliseconds(Clock::duration time)
 {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    return std::chrono::duration<double, std::milli>(time).count();
+}
+
+/// Of what the pass declares to write, the part that is kept.
+std::uint64_t bytes_written(const Graph& graph, const PassPlan& planned)
+{
+    const auto size = [&](ImageId id) {
+        const ImageDesc& desc = graph.images[id.index].desc;
+        return std::uint64_t{desc.width} * desc.height * desc.samples * find_format(desc.format)->bytes;
+    };
+    const Pass& pass = graph.passes[planned.pass];
+    std::uint64_t bytes = 0;
+    if (const auto* compute = std::get_if<ComputePass>(&pass)) {
+        for (const Bindings::Stored& stored : compute->stored)
+            bytes += size(stored.image);
+        return bytes;
+    }
+    const RasterPass& raster = std::get<RasterPass>(pass);
+    for (std::size_t i = 0; i < raster.colors.size(); ++i) {
+        if (planned.color_stores[i] == VK_ATTACHMENT_STORE_OP_STORE)
+            bytes += size(raster.colors[i].image);
+        if (raster.colors[i].resolve.valid())
+            bytes += size(raster.colors[i].resolve);
+    }
+    if (raster.depth_image.valid() && planned.depth_store == VK_ATTACHMENT_STORE_OP_STORE)
+        bytes += size(raster.depth_image);
+    return bytes;
 }
 
 /// A labelled stretch of commands, for debuggers.
@@ -48,6 +74,18 @@ class Label
 
 } // namespace
 
+const char* name_of(Alignment alignment)
+{
+    switch (alignment) {
+    case Alignment::Calibrated:
+        return "calibrated";
+    case Alignment::Bounds:
+        return "bounds";
+    default:
+        return "none";
+    }
+}
+
 cv::Mat FrameResult::mat(ReadbackId id) const
 {
     const Readback& readback = readbacks.at(id.index);
@@ -72,7 +110,7 @@ struct Executor::Frame
 
     FrameSlot slot;
     std::uint64_t number = 0;
-    Clock::time_point start;
+    Clock::time_point start, recorded, submitted;
     FrameResult result;                // without what only the finished frame knows
     std::vector<VkDeviceSize> offsets; // of the read-backs
     const Buffer* readback = nullptr;  // null when there are none
@@ -107,10 +145,16 @@ FrameToken Executor::submit(const Graph& graph)
     frame.start = start;
     match_images(graph, frame.result.plan);
     const std::vector<BoundImage> bound = bind_images(graph);
-    const auto timestamps = static_cast<std::uint32_t>(2 * graph.passes.size());
-    const VkCommandBuffer commands = frame.slot.begin(timestamps);
+    const auto passes = static_cast<std::uint32_t>(graph.passes.size());
+    const Clock::time_point scheduled = Clock::now();
+    const VkCommandBuffer commands = frame.slot.begin(2 * passes + 2, measuring.count ? passes : 0);
     record_passes(graph, frame, commands, bound);
-    frame.slot.submit();
+    frame.recorded = Clock::now();
+    frame.slot.submit(measuring.align);
+    frame.submitted = Clock::now();
+    frame.result.host.schedule_ms = milliseconds(scheduled - start);
+    frame.result.host.record_ms = milliseconds(frame.recorded - scheduled);
+    frame.result.host.submit_ms = milliseconds(frame.submitted - frame.recorded);
     memory = frame.result.plan.memory; // only now: whatever threw before has changed no image
     frame.number = ++submitted;
     return {frame.number};
@@ -122,17 +166,11 @@ FrameResult Executor::finish(FrameToken token)
     if (token.number == 0 || frame.number != token.number)
         throw std::logic_error("Executor::finish: this frame's results are gone");
     frame.slot.wait();
+    const Clock::time_point done = Clock::now();
     FrameResult result = std::move(frame.result);
     frame.number = 0;
-    if (frame.slot.has_timestamps()) {
-        std::size_t tick = 0;
-        for (PassResult& pass : result.passes)
-            if (pass.state == PassState::Run) {
-                pass.gpu_ms = frame.slot.milliseconds(tick, tick + 1);
-                tick += 2;
-            }
-        result.gpu_ms = tick > 0 ? frame.slot.milliseconds(0, tick - 1) : 0.0;
-    }
+    if (frame.slot.has_timestamps())
+        read_times(frame, done, result);
     if (frame.readback) {
         frame.readback->invalidate();
         for (std::size_t i = 0; i < result.readbacks.size(); ++i) {
@@ -140,8 +178,45 @@ FrameResult Executor::finish(FrameToken token)
             std::memcpy(bytes.data(), frame.readback->mapped().data() + frame.offsets[i], bytes.size());
         }
     }
-    result.frame_ms = milliseconds_since(frame.start);
+    const Clock::time_point end = Clock::now();
+    result.host.wait_ms = milliseconds(done - frame.submitted);
+    result.host.readback_ms = milliseconds(end - done);
+    result.frame_ms = milliseconds(end - frame.start);
     return result;
+}
+
+/// The timestamps of a frame that was done at `done`: two of each pass that ran, two of the copies.
+void Executor::read_times(const Frame& frame, Clock::time_point done, FrameResult& result)
+{
+    const FrameSlot& slot = frame.slot;
+    const auto since_start = [&](Clock::time_point time) { return milliseconds(time - frame.start); };
+    const std::size_t passes =
+        static_cast<std::size_t>(std::ranges::count(result.passes, PassState::Run, &PassResult::state));
+    const std::size_t last =
+        2 * (passes + (frame.readback ? 1 : 0)) - 1; // there are timestamps, so one of both
+    const double all_ms = slot.milliseconds(0, last);
+    double origin = 0;
+    if (const auto first = slot.first_timestamp()) {
+        result.alignment = Alignment::Calibrated;
+        result.alignment_error_ms = first->error_ms;
+        origin = since_start(first->time);
+    } else {
+        result.alignment = Alignment::Bounds;
+        result.alignment_error_ms =
+            std::max(0.0, (since_start(done) - since_start(frame.recorded) - all_ms) / 2);
+        origin = since_start(frame.recorded) + result.alignment_error_ms;
+    }
+    std::size_t ran = 0;
+    for (PassResult& pass : result.passes)
+        if (pass.state == PassState::Run) {
+            pass.gpu_begin_ms = origin + slot.milliseconds(0, 2 * ran);
+            pass.gpu_ms = slot.milliseconds(2 * ran, 2 * ran + 1);
+            pass.invocations = slot.invocations(ran);
+            ++ran;
+        }
+    result.gpu_ms = ran > 0 ? slot.milliseconds(0, 2 * ran - 1) : 0.0;
+    if (frame.readback)
+        result.copy = GpuSpan{origin + slot.milliseconds(0, 2 * ran), slot.milliseconds(2 * ran, last)};
 }
 
 VkImage Executor::presented(std::string_view image_name) const
@@ -216,19 +291,25 @@ void Executor::record_passes(const Graph& graph, Frame& frame, VkCommandBuffer c
         // llvmpipe needs it: without one it reports next to no time for the dispatch.
         assert(!planned.barriers.empty());
         recorder.barriers(planned.barriers);
+        frame.slot.begin_count();
         const Pass& pass = graph.passes[planned.pass];
         if (const auto* compute = std::get_if<ComputePass>(&pass))
             recorder.record(*compute);
         else
             recorder.record(std::get<RasterPass>(pass), planned);
+        frame.slot.end_count();
         frame.slot.timestamp();
-        result.cpu_ms = milliseconds_since(start);
+        result.bytes_written = bytes_written(graph, planned);
+        result.cpu_begin_ms = milliseconds(start - frame.start);
+        result.cpu_ms = milliseconds(Clock::now() - start);
     }
     record_readbacks(graph, frame, recorder);
 }
 
 void Executor::record_readbacks(const Graph& graph, Frame& frame, Recorder& recorder)
 {
+    if (!graph.readbacks.empty())
+        frame.slot.timestamp();
     recorder.barriers(frame.result.plan.final_barriers);
     frame.offsets.clear();
     frame.readback = nullptr;
@@ -244,6 +325,7 @@ void Executor::record_readbacks(const Graph& graph, Frame& frame, Recorder& reco
         return;
     frame.readback = &frame.slot.readback(size);
     recorder.copy_out(graph.readbacks, *frame.readback, frame.offsets);
+    frame.slot.timestamp();
 }
 
 } // namespace engine

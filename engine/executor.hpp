@@ -9,6 +9,7 @@
 #include "engine/shader_library.hpp"
 
 #include <array>
+#include <chrono>
 #include <map>
 #include <memory>
 #include <opencv2/core.hpp>
@@ -22,13 +23,44 @@ namespace engine {
 class Recorder;
 struct BoundImage;
 
+/// All times of a frame lie on one line, in milliseconds since it was handed to submit() or run().
+struct GpuSpan
+{
+    double begin_ms = 0; // as exact as FrameResult::alignment says
+    double ms = 0;
+    double end_ms() const { return begin_ms + ms; }
+};
+
 struct PassResult
 {
     std::string name;
     PassState state = PassState::Run;
     std::string reason;
-    std::optional<double> gpu_ms; // only of passes that ran, on a device with timestamps
-    double cpu_ms = 0;            // recording; includes compiling the pipelines on the first run
+    std::optional<double> gpu_ms;       // only of passes that ran, on a device with timestamps
+    std::optional<double> gpu_begin_ms; // the same
+    double cpu_ms = 0;                  // recording; includes compiling the pipelines on the first run
+    double cpu_begin_ms = 0;
+    std::uint64_t bytes_written = 0; // to its declared images, as far as they are stored; 0 unless it ran
+    std::optional<Invocations> invocations; // only of passes that ran, when counted and the device can
+};
+
+/// How the GPU's times were laid on the host's line.
+enum class Alignment : std::uint8_t
+{
+    None,       // no timestamps
+    Bounds,     // centred between the submission and its completion
+    Calibrated, // by the device's own word on both clocks
+};
+const char* name_of(Alignment alignment);
+
+/// Where a frame's wall clock went on the host: one after the other, frame_ms in sum.
+struct HostTimes
+{
+    double schedule_ms = 0; // checking and scheduling the declaration, making images
+    double record_ms = 0;   // the commands of all passes and read-backs
+    double submit_ms = 0;   // handing them over
+    double wait_ms = 0;     // until they were done; with frames in flight also what the caller did meanwhile
+    double readback_ms = 0; // fetching results
 };
 
 struct FrameResult
@@ -36,6 +68,10 @@ struct FrameResult
     std::vector<PassResult> passes; // in order of execution
     double frame_ms = 0;            // wall clock, from the declaration's check to the data on the host
     std::optional<double> gpu_ms;   // from the first pass to the last, on a device with timestamps
+    std::optional<GpuSpan> copy;    // of what is read back into a buffer of the host's
+    HostTimes host;
+    Alignment alignment = Alignment::None;
+    double alignment_error_ms = 0; // either way, at most
     Plan plan;
 
     struct Readback
@@ -49,6 +85,13 @@ struct FrameResult
     /// The picture as it lies in `bytes`: CV_8UC4 for RGBA8, CV_32FC4 for RGBA32F, ... Shares their memory.
     cv::Mat mat(ReadbackId id) const;
     const PassResult& pass(std::string_view name) const; // throws std::out_of_range when there is none
+};
+
+/// What to find out beside the times that cost nothing.
+struct Measuring
+{
+    bool align = false; // calibrated timestamps, where the device has them
+    bool count = false; // shader invocations, where the device can; may slow the passes down
 };
 
 /// Names a submitted frame.
@@ -75,6 +118,9 @@ class Executor
     /// Must be asked for before the second submit after this one.
     FrameResult finish(FrameToken token);
 
+    /// From the next frame on. Nothing at first.
+    void measure(const Measuring& what) { measuring = what; }
+
     /// The image a graph presented last, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
     /// for commands submitted to the same queue.
     VkImage presented(std::string_view image_name) const;
@@ -89,12 +135,15 @@ class Executor
     void record_passes(const Graph& graph, Frame& frame, VkCommandBuffer commands,
                        std::span<const BoundImage> bound);
     void record_readbacks(const Graph& graph, Frame& frame, Recorder& recorder);
+    static void read_times(const Frame& frame, std::chrono::steady_clock::time_point done,
+                           FrameResult& result);
 
     const Device& device;
     const ShaderLibrary& library;
     Pipelines pipelines;
     std::map<std::string, Image, std::less<>> images; // by name, as in memory.images
     Memory memory;
+    Measuring measuring;
     std::array<std::unique_ptr<Frame>, 2> frames;
     std::uint64_t submitted = 0;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 
 namespace engine {
@@ -43,7 +44,12 @@ void UploadArena::reset()
 // ---- FrameSlot
 // ---------------------------------------------------------------------------------------------------
 
-FrameSlot::FrameSlot(const Device& used) : device(used), uploads(used)
+FrameSlot::FrameSlot(const Device& used)
+    : device(used), uploads(used), timestamps(used, VK_QUERY_TYPE_TIMESTAMP),
+      counts(used, VK_QUERY_TYPE_PIPELINE_STATISTICS,
+             VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT |
+                 VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT |
+                 VK_QUERY_PIPELINE_STATISTIC_COMPUTE_SHADER_INVOCATIONS_BIT)
 {
     try {
         const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
@@ -72,14 +78,13 @@ void FrameSlot::destroy()
 {
     if (in_flight) // nothing can be done about a lost device here; everything is destroyed all the same
         vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, UINT64_MAX);
-    vkDestroyQueryPool(device.handle(), queries, nullptr);
     for (const VkDescriptorPool descriptors : descriptor_pools)
         vkDestroyDescriptorPool(device.handle(), descriptors, nullptr);
     vkDestroyFence(device.handle(), fence, nullptr);
     vkDestroyCommandPool(device.handle(), pool, nullptr);
 }
 
-VkCommandBuffer FrameSlot::begin(std::uint32_t timestamps)
+VkCommandBuffer FrameSlot::begin(std::uint32_t most_timestamps, std::uint32_t most_counts)
 {
     wait();
     uploads.reset();
@@ -87,26 +92,15 @@ VkCommandBuffer FrameSlot::begin(std::uint32_t timestamps)
         check(vkResetDescriptorPool(device.handle(), descriptors, 0), "reset descriptors");
     descriptor_pool = 0;
     check(vkResetCommandPool(device.handle(), pool, 0), "reset commands");
-    if (device.timestamp_bits() > 0 && timestamps > query_capacity) {
-        vkDestroyQueryPool(device.handle(), queries, nullptr);
-        queries = VK_NULL_HANDLE;
-        const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-                                         .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                         .queryCount = timestamps};
-        check(vkCreateQueryPool(device.handle(), &info, nullptr, &queries), "create timestamps");
-        query_capacity = timestamps;
-    }
-    query_count = 0;
-    ticks.clear();
     const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     check(vkBeginCommandBuffer(commands, &info), "record a frame");
-    if (queries)
-        vkCmdResetQueryPool(commands, queries, 0, query_capacity);
+    timestamps.begin_frame(commands, device.timestamp_bits() > 0 ? most_timestamps : 0);
+    counts.begin_frame(commands, device.info().statistics ? most_counts : 0);
     return commands;
 }
 
-void FrameSlot::submit()
+void FrameSlot::submit(bool calibrate)
 {
     check(vkEndCommandBuffer(commands), "record a frame");
     check(vkResetFences(device.handle(), 1, &fence), "reset a fence");
@@ -115,6 +109,7 @@ void FrameSlot::submit()
     const VkSubmitInfo2 info{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
                              .commandBufferInfoCount = 1,
                              .pCommandBufferInfos = &buffer};
+    calibration = calibrate ? device.calibrate() : std::nullopt;
     check(vkQueueSubmit2(device.queue(), 1, &info, fence), "submit a frame");
     in_flight = true;
 }
@@ -125,7 +120,8 @@ void FrameSlot::wait()
         return;
     check(vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "finish a frame");
     in_flight = false;
-    read_ticks();
+    timestamps.fetch();
+    counts.fetch();
 }
 
 VkDescriptorSet FrameSlot::allocate_set(VkDescriptorSetLayout layout)
@@ -161,21 +157,32 @@ VkDescriptorSet FrameSlot::allocate_set(VkDescriptorSetLayout layout)
     }
 }
 
-void FrameSlot::timestamp()
-{
-    if (!queries)
-        return;
-    assert(query_count < query_capacity);
-    // ALL_COMMANDS: once everything recorded before is done, so neighbouring passes never share time.
-    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, query_count++);
-}
-
 double FrameSlot::milliseconds(std::size_t from, std::size_t to) const
 {
-    const std::uint32_t bits = device.timestamp_bits();
-    const std::uint64_t mask = bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
-    const std::uint64_t passed = (ticks.at(to) - ticks.at(from)) & mask; // right across a wrap, too
-    return static_cast<double>(passed) * static_cast<double>(device.limits().timestampPeriod) * 1e-6;
+    const std::span<const std::uint64_t> ticks = timestamps.values();
+    assert(from < ticks.size() && to < ticks.size());
+    return device.milliseconds(ticks[from], ticks[to]);
+}
+
+std::optional<Invocations> FrameSlot::invocations(std::size_t n) const
+{
+    const std::span<const std::uint64_t> values = counts.values(); // in the order of the flags' bits
+    if (3 * n + 2 >= values.size())
+        return std::nullopt;
+    return Invocations{values[3 * n], values[3 * n + 1], values[3 * n + 2]};
+}
+
+std::optional<FrameSlot::Moment> FrameSlot::first_timestamp() const
+{
+    if (!calibration || !has_timestamps())
+        return std::nullopt;
+    const std::uint64_t first = timestamps.values().front();
+    // Later, or by the clocks' deviation a little earlier; ticks wrap, so the shorter way round is meant.
+    const double after_ms = device.milliseconds(calibration->ticks, first),
+                 before_ms = device.milliseconds(first, calibration->ticks);
+    const double offset_ms = after_ms <= before_ms ? after_ms : -before_ms;
+    return Moment{calibration->host + std::chrono::nanoseconds(std::llround(offset_ms * 1e6)),
+                  calibration->deviation_ms};
 }
 
 const Buffer& FrameSlot::readback(VkDeviceSize bytes)
@@ -184,17 +191,6 @@ const Buffer& FrameSlot::readback(VkDeviceSize bytes)
         readback_buffer =
             Buffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostAccess::Read, "read-backs");
     return readback_buffer;
-}
-
-void FrameSlot::read_ticks()
-{
-    if (query_count == 0)
-        return;
-    ticks.resize(query_count);
-    check(vkGetQueryPoolResults(device.handle(), queries, 0, query_count, ticks.size() * sizeof(ticks[0]),
-                                ticks.data(), sizeof(ticks[0]),
-                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-          "read timestamps");
 }
 
 } // namespace engine

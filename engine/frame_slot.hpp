@@ -2,8 +2,11 @@
 #pragma once
 #include "engine/device.hpp"
 #include "engine/memory.hpp"
+#include "engine/queries.hpp"
 
+#include <chrono>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 #include <volk.h>
@@ -32,6 +35,12 @@ class UploadArena
     VkDeviceSize used = 0; // bytes of it
 };
 
+/// How often each kind of shader ran. A rasteriser may count helper invocations, or save some.
+struct Invocations
+{
+    std::uint64_t vertex = 0, fragment = 0, compute = 0;
+};
+
 class FrameSlot
 {
   public:
@@ -40,22 +49,35 @@ class FrameSlot
     FrameSlot(const FrameSlot&) = delete;
     FrameSlot& operator=(const FrameSlot&) = delete;
 
-    /// Waits for the frame that used the slot last, begins recording; room for so many timestamps.
-    VkCommandBuffer begin(std::uint32_t timestamps);
-    void submit();
+    /// Waits for the frame that used the slot last, begins recording; room for so many timestamps and counts.
+    VkCommandBuffer begin(std::uint32_t timestamps, std::uint32_t counts);
+    /// With `calibrate`, first notes which of the device's ticks is which moment of the host.
+    void submit(bool calibrate);
     void wait();
 
     VkDescriptorSet allocate_set(VkDescriptorSetLayout layout);
     UploadArena& arena() { return uploads; }
-    void timestamp(); // does nothing on a device without timestamps
+    void timestamp() { timestamps.timestamp(commands); } // does nothing on a device without timestamps
+    /// Counts what is recorded in between, outside of rendering; nothing when no room was asked for or the
+    /// device cannot.
+    void begin_count() { counts.begin(commands); }
+    void end_count() { counts.end(commands); }
     /// Milliseconds between two timestamps of a finished frame. Only when has_timestamps().
     double milliseconds(std::size_t from, std::size_t to) const;
-    bool has_timestamps() const { return !ticks.empty(); }
+    bool has_timestamps() const { return !timestamps.values().empty(); }
+    /// Of the finished frame's n-th count; none when it was not counted.
+    std::optional<Invocations> invocations(std::size_t n) const;
+    /// When the first timestamp was taken, by the calibration at submit().
+    struct Moment
+    {
+        std::chrono::steady_clock::time_point time;
+        double error_ms = 0; // either way
+    };
+    std::optional<Moment> first_timestamp() const;
     /// At least so many bytes for read-backs.
     const Buffer& readback(VkDeviceSize bytes);
 
   private:
-    void read_ticks();
     void destroy();
 
     const Device& device;
@@ -66,9 +88,8 @@ class FrameSlot
     bool in_flight = false;
     std::vector<VkDescriptorPool> descriptor_pools;
     std::size_t descriptor_pool = 0; // being filled
-    VkQueryPool queries = VK_NULL_HANDLE;
-    std::uint32_t query_capacity = 0, query_count = 0;
-    std::vector<std::uint64_t> ticks;
+    Queries timestamps, counts;
+    std::optional<Device::Calibration> calibration; // of the frame submitted last
     Buffer readback_buffer;
 };
 

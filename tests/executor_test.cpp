@@ -204,6 +204,88 @@ TEST_F(ExecutorTest, TimesEveryPassThatRanAndAComputePassNotAsNothing)
     EXPECT_FALSE(still.pass("fill").gpu_ms) << "a skipped pass has no time";
 }
 
+TEST_F(ExecutorTest, LaysCpuAndGpuOnOneLine)
+{
+    for (const bool align : {false, true}) {
+        Executor executor(gpu::device(), gpu::shaders());
+        executor.measure({.align = align});
+        const std::vector<glm::vec2> work(20000);
+        for (int i = 0; i < 3; ++i) {
+            Graph graph;
+            graph.readback("shown", add_show(graph, add_fill(graph, {.step = float(i)}, work)));
+            const FrameResult result = executor.run(graph);
+            EXPECT_EQ(result.alignment,
+                      align && gpu::device().info().calibrated ? Alignment::Calibrated : Alignment::Bounds);
+            const HostTimes& host = result.host;
+            const double recorded = host.schedule_ms + host.record_ms;
+            EXPECT_NEAR(recorded + host.submit_ms + host.wait_ms + host.readback_ms, result.frame_ms, 1e-6);
+            // What runs one after the other lies one after the other, from the submission to the fence.
+            double gpu = recorded, cpu = host.schedule_ms;
+            for (const PassResult& pass : result.passes) {
+                EXPECT_GE(pass.cpu_begin_ms, cpu) << pass.name;
+                cpu = pass.cpu_begin_ms + pass.cpu_ms;
+                EXPECT_GE(pass.gpu_begin_ms.value(), gpu - result.alignment_error_ms - 1e-6) << pass.name;
+                gpu = *pass.gpu_begin_ms + pass.gpu_ms.value();
+            }
+            EXPECT_LE(cpu, recorded);
+            EXPECT_GE(result.copy.value().begin_ms, gpu - 1e-6);
+            EXPECT_LE(result.copy->end_ms(),
+                      recorded + host.submit_ms + host.wait_ms + result.alignment_error_ms);
+        }
+    }
+}
+
+TEST_F(ExecutorTest, CountsInvocationsAndBytesOfPassesThatRan)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    const auto frame = [&] {
+        Graph graph;
+        graph.readback("shown", add_show(graph, add_fill(graph, {})));
+        return executor.run(graph);
+    };
+    EXPECT_FALSE(frame().pass("fill").invocations) << "nothing is counted unless asked for";
+    executor.forget();
+    executor.measure({.count = true});
+    const FrameResult counted = frame();
+    constexpr std::uint64_t texels = std::uint64_t{small_float.width} * small_float.height;
+    for (const char* name : {"fill", "show"})
+        EXPECT_EQ(counted.pass(name).bytes_written, 16 * texels) << name;
+    if (gpu::device().info().statistics) {
+        const Invocations fill = counted.pass("fill").invocations.value(),
+                          show = counted.pass("show").invocations.value();
+        EXPECT_GE(fill.compute, texels); // whole workgroups
+        EXPECT_LT(fill.compute, 4 * texels);
+        EXPECT_EQ(fill.fragment + fill.vertex + show.compute, 0u);
+        EXPECT_EQ(show.vertex, 3u);
+        EXPECT_GE(show.fragment, texels);
+    } else {
+        EXPECT_FALSE(counted.pass("fill").invocations);
+    }
+    const FrameResult still = frame();
+    EXPECT_EQ(still.pass("fill").bytes_written, 0u);
+    EXPECT_FALSE(still.pass("fill").invocations);
+    EXPECT_FALSE(still.pass("fill").gpu_begin_ms);
+}
+
+TEST_F(ExecutorTest, OnlyWhatIsStoredCountsAsWritten)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    Graph graph;
+    const ImageId filled = add_fill(graph, {});
+    const ImageId many = graph.image("many", {8, 8, VK_FORMAT_R8G8B8A8_UNORM, 4}),
+                  one = graph.image("one", {8, 8, VK_FORMAT_R8G8B8A8_UNORM}),
+                  depth = graph.image("depth", {8, 8, VK_FORMAT_D32_SFLOAT, 4});
+    RasterPass& show = graph.raster("show");
+    show.color(many, {0, 0, 0, 0}, one);
+    show.depth(depth);
+    show.sample("source", filled, Sampler::NearestClamp);
+    show.uniform("Tint", glm::vec4(1));
+    show.draw("test_quad").index_count = 3;
+    graph.readback("one", one);
+    EXPECT_EQ(executor.run(graph).pass("show").bytes_written, 8u * 8 * 4)
+        << "neither the samples nor the depth are needed once resolved";
+}
+
 TEST_F(ExecutorTest, TwoFramesInFlightKeepTheirOwnResults)
 {
     Executor executor(gpu::device(), gpu::shaders());

@@ -89,6 +89,9 @@ TEST_F(Frame, RunsAgainOnlyWhatAChangeReaches)
     studio.stage.set_lights(lights);
     EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("forward", "tonemap"));
 
+    studio.stage.set_tissue(wound::skin(wound::SkinTone::Dark));
+    EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("reflectance_lut", "forward", "tonemap"));
+
     studio.shading.shadow = false;
     const engine::FrameResult unshadowed = studio.draw(4);
     EXPECT_THAT(ran(unshadowed), UnorderedElementsAre("forward", "tonemap"));
