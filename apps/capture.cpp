@@ -1,89 +1,26 @@
 #include "apps/capture.hpp"
 
 #include <algorithm>
-#include <deque>
-#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <future>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <sstream>
 #include <unistd.h>
 
+#include "apps/camera_record.hpp"
 #include "apps/contact_sheet.hpp"
 #include "apps/cost.hpp"
 #include "apps/output.hpp"
-#include "apps/scene_options.hpp"
-#include "apps/stage.hpp"
-#include "engine/executor.hpp"
+#include "apps/writers.hpp"
 #include "engine/image_io.hpp"
-#include "wound/input_error.hpp"
 
 namespace app {
 namespace {
 using nlohmann::json;
 
-struct CaptureOptions : SceneOptions
-{
-    std::filesystem::path out = "out";
-    bool no_cost = false;
-};
-
-/// Files being encoded while the next frame is drawn. An error of any of them surfaces in finish() or push().
-class Writers
-{
-  public:
-    template <typename Work>
-    void push(Work work)
-    {
-        while (running_.size() >= 4)
-            pop();
-        running_.push_back(std::async(std::launch::async, std::move(work)));
-    }
-    void finish()
-    {
-        while (!running_.empty())
-            pop();
-    }
-
-  private:
-    void pop()
-    {
-        std::future<void> first = std::move(running_.front());
-        running_.pop_front();
-        first.get();
-    }
-    std::deque<std::future<void>> running_;
-};
-
-/// day_005.png; day_005.5.png; the second frame of the same day is day_005_2.png.
-std::string picture_name(double day, int repetition)
-{
-    std::string name = fmt::format("day_{:0>3}", day == std::floor(day) ? fmt::format("{:.0f}", day)
-                                                                        : fmt::format("{:07.3f}", day));
-    return name + (repetition > 1 ? fmt::format("_{}", repetition) : "") + ".png";
-}
-
-cv::Mat3b to_rgb(const cv::Mat& rgba)
-{
-    cv::Mat3b rgb;
-    cv::cvtColor(rgba, rgb, cv::COLOR_RGBA2RGB);
-    return rgb;
-}
-
-json pass_costs(const engine::FrameResult& frame)
-{
-    json passes = json::array();
-    for (const engine::PassResult& pass : frame.passes)
-        passes.push_back({{"name", pass.name},
-                          {"state", engine::name_of(pass.state)},
-                          {"reason", pass.reason},
-                          {"gpu_ms", pass.gpu_ms ? json(*pass.gpu_ms) : json(nullptr)},
-                          {"cpu_ms", pass.cpu_ms}});
-    return passes;
-}
+constexpr std::size_t most_cells = 48;   // of healing.png, chosen evenly from all pictures
+constexpr std::uint32_t close_up = 1280; // px, longest side: it is shown small
 
 /// Wall-clock milliseconds since this process was started.
 double process_ms()
@@ -102,12 +39,11 @@ double process_ms()
     return 1e3 * (now - std::stod(field) / double(::sysconf(_SC_CLK_TCK)));
 }
 
-/// Coverage of the open bed in the warped mask, in texels.
-double bed_texels(const cv::Mat& state)
+/// The same shape, the longer side at most `largest`.
+std::array<std::uint32_t, 2> within(std::array<std::uint32_t, 2> size, std::uint32_t largest)
 {
-    cv::Mat4f values;
-    state.convertTo(values, CV_32F);
-    return cv::sum(values)[2];
+    const double scale = std::min(1.0, double(largest) / std::max(size[0], size[1]));
+    return {std::max(1u, std::uint32_t(size[0] * scale)), std::max(1u, std::uint32_t(size[1] * scale))};
 }
 
 json wound_record(const wound::WoundDay& today, double mask_area_ratio)
@@ -118,147 +54,125 @@ json wound_record(const wound::WoundDay& today, double mask_area_ratio)
             {"mask_area_ratio", mask_area_ratio}};
 }
 
+std::string sheet_label(const Shot& shot, const std::vector<wound::WoundDay>& today)
+{
+    const std::string open =
+        today.empty() ? "" : fmt::format("   {:.0f} % open", 100 * today[0].unhealed_ratio);
+    return fmt::format("day {:g}", shot.day) + (shot.view.empty() ? open : "   " + shot.view);
+}
+
 class Capture
 {
   public:
-    Capture(const CaptureOptions& options, const Scene& scene)
-        : options_(options), scene_(scene), terminal_(::isatty(STDERR_FILENO) != 0)
+    Capture(Renderer& renderer, const Stage& stage, const CaptureOptions& options, Progress& progress)
+        : renderer_(renderer), stage_(stage), options_(options), progress_(progress),
+          views_(chosen_views(stage, options.views)), shots_(shots_of_days(stage.scene().days, views_))
     {
+        draw_options_.size = stage.scene().size;
+        draw_options_.tile = std::min(options.tile, renderer.device.limits().maxImageDimension2D / 2 * 2);
+        progress.expect(shots_.size());
     }
 
-    void run()
+    json run(std::vector<std::string>& lines)
     {
         make_folder(options_.out);
-        auto props = std::async(std::launch::async, [this] { return Stage::prepare(scene_); });
-        engine::Device device(device_options(options_));
-        check_size(device);
-        engine::ShaderLibrary library;
-        engine::Executor executor(device, library);
-        const Stage stage(device, scene_, props.get());
-        for (const std::string& note : stage.notes())
-            fmt::print(stderr, "note: {}\n", note);
-
-        for (const double day : scene_.days)
-            capture_day(executor, stage, day);
-        std::vector<std::string> cost_lines;
-        json record = header(device);
-        if (!options_.no_cost)
-            record["cost"] = measure_cost(executor, stage, cost_lines);
+        for (const Shot& shot : shots_)
+            picture(shot);
+        json record = header();
+        if (options_.cost)
+            record["cost"] = measure_cost(renderer_.executor, stage_, lines);
         record["first_picture_ms"] = *first_picture_ms_; // since the process started
         record["days"] = days_;
-        writers_.push([&] {
-            engine::write_png(options_.out / "healing.png", contact_sheet(title(device), cells_, 6));
-        });
+        if (options_.sheet)
+            engine::write_png(options_.out / "healing.png", contact_sheet(title(), cells_, 6));
         writers_.finish();
         write_json(options_.out / "capture.json", record);
-        fail_on_validation(device);
-        progress("");
-        fmt::print("{} pictures, healing.png and capture.json in {}\n", days_.size(), options_.out.string());
-        for (const std::string& line : cost_lines)
-            fmt::print("{}\n", line);
+        fail_on_validation(renderer_.device);
+        return record;
     }
 
   private:
-    void check_size(const engine::Device& device) const
+    void picture(const Shot& shot)
     {
-        const std::uint32_t largest = device.limits().maxImageDimension2D;
-        if (std::max(scene_.size[0], scene_.size[1]) > largest)
-            throw cicatrix::InputError("--size",
-                                       fmt::format("{}x{} is more than {} can draw", scene_.size[0],
-                                                   scene_.size[1], device.info().name),
-                                       fmt::format("stay within {}x{}", largest, largest));
-    }
-
-    void progress(const std::string& text) const
-    {
-        if (terminal_)
-            fmt::print(stderr, "\r\033[K{}", text);
-    }
-
-    void capture_day(engine::Executor& executor, const Stage& stage, double day)
-    {
-        progress(fmt::format("day {:g} ({} of {})", day, days_.size() + 1, scene_.days.size()));
-        const std::vector<wound::WoundDay> today = stage.wounds_on(day);
-        engine::Graph graph;
-        const passes::FrameImages images =
-            stage.declare(graph, today, stage.camera(), scene_.shading, scene_.size);
-        const engine::ReadbackId picture = graph.readback("picture", images.picture);
-        std::vector<engine::ReadbackId> states;
-        for (const passes::WoundTexture& wound : images.wounds)
-            states.push_back(graph.readback(fmt::format("state {}", states.size() + 1), wound.state));
-        const engine::FrameResult frame = executor.run(graph);
-
-        const std::string file = picture_name(day, ++repetitions_[day]);
-        const cv::Mat3b rgb = to_rgb(frame.mat(picture));
+        progress_.show(fmt::format("day {:g}{}{}", shot.day, shot.view.empty() ? "" : ", ", shot.view));
+        const Drawing drawing = draw(renderer_, stage_, shot, draw_options_);
         if (!first_picture_ms_)
             first_picture_ms_ = process_ms();
-        writers_.push([path = options_.out / file, rgb] { engine::write_png(path, rgb); });
+        const std::string file = shot.name + ".png";
+        const cv::Mat3b rgb = drawing.picture;
+        writers_.push(rgb.total() * rgb.elemSize(),
+                      [path = options_.out / file, rgb] { engine::write_png(path, rgb); });
 
-        json record{{"day", day},
+        const std::vector<wound::WoundDay> today = stage_.wounds_on(shot.day);
+        json record{{"day", shot.day},
                     {"file", file},
-                    {"frame_ms", frame.frame_ms},
-                    {"passes", pass_costs(frame)},
+                    {"frame_ms", drawing.frame_ms},
+                    {"passes", drawing.passes},
+                    {"camera", camera_record(stage_, shot.camera, draw_options_.size)},
                     {"wounds", json::array()}};
+        if (!shot.view.empty())
+            record["view"] = shot.view;
         for (std::size_t i = 0; i < today.size(); ++i) {
-            const double initial = cv::sum(stage.prepared()[i].patch.mask)[0];
-            record["wounds"].push_back(wound_record(today[i], bed_texels(frame.mat(states[i])) / initial));
+            const double initial = cv::sum(stage_.prepared()[i].patch.mask)[0];
+            record["wounds"].push_back(wound_record(today[i], drawing.bed_texels[i] / initial));
         }
         if (!today.empty())
             record.update(record["wounds"][0]); // the first wound's numbers also stand at the top
         for (std::size_t i = 0; i < today.size(); ++i)
-            record["wounds"][i]["scene_wound"] = stage.scene_wounds()[i]; // index into the scene's wounds
+            record["wounds"][i]["scene_wound"] = stage_.scene_wounds()[i]; // index into the scene's wounds
+        if (options_.after_picture)
+            options_.after_picture(stage_, shot, record);
+        if (options_.sheet && on_sheet(days_.size()))
+            cells_.push_back({sheet_picture(rgb), sheet_close_up(shot), sheet_label(shot, today)});
         days_.push_back(std::move(record));
-        cells_.push_back({rgb, close_up(executor, stage, today), sheet_label(day, today)});
+        progress_.step();
     }
 
-    cv::Mat3b close_up(engine::Executor& executor, const Stage& stage,
-                       const std::vector<wound::WoundDay>& today)
+    /// Whether the picture of this number has a cell.
+    bool on_sheet(std::size_t index) const
     {
-        engine::Graph graph;
-        const passes::FrameImages images =
-            stage.declare(graph, today, stage.close_up(0), scene_.shading, scene_.size);
-        const engine::ReadbackId picture = graph.readback("picture", images.picture);
-        const engine::FrameResult frame = executor.run(graph);
-        return to_rgb(frame.mat(picture));
+        const std::size_t cells = std::min(most_cells, shots_.size());
+        return (index * cells + shots_.size() - 1) / shots_.size() !=
+               ((index + 1) * cells + shots_.size() - 1) / shots_.size();
     }
 
-    static std::string sheet_label(double day, const std::vector<wound::WoundDay>& today)
+    /// Beside a single view, the wound is shown large.
+    cv::Mat3b sheet_close_up(const Shot& shot)
     {
-        return fmt::format("day {:g}", day) +
-               (today.empty() ? "" : fmt::format("   {:.0f} % open", 100 * today[0].unhealed_ratio));
+        if (views_.size() > 1)
+            return {};
+        Shot near = shot;
+        near.camera = stage_.close_up(0);
+        DrawOptions small = draw_options_;
+        small.size = within(small.size, close_up);
+        return sheet_picture(draw(renderer_, stage_, near, small).picture);
     }
 
-    std::string title(const engine::Device& device) const
+    std::string title() const
     {
-        return fmt::format("{}   {} mode   {}",
-                           options_.scene.empty() ? "default scene"
-                                                  : std::filesystem::path(options_.scene).stem().string(),
-                           options_.mode == "published" ? "published" : "corrected", device.info().name);
+        return fmt::format("{}   {} mode   {}", options_.title, options_.mode, renderer_.device.info().name);
     }
 
-    json header(const engine::Device& device) const
+    json header() const
     {
-        return {{"device", device.info().name},
-                {"driver", device.info().driver},
-                {"software_rasteriser", device.info().software},
-                {"size", {scene_.size[0], scene_.size[1]}},
-                {"mode", options_.mode == "published" ? "published" : "corrected"},
-                {"scene", to_json(scene_)}};
+        const engine::DeviceInfo& device = renderer_.device.info();
+        return {{"device", device.name},
+                {"driver", device.driver},
+                {"software_rasteriser", device.software},
+                {"size", draw_options_.size},
+                {"tiles", canvases(draw_options_).size()},
+                {"mode", options_.mode},
+                {"scene", to_json(stage_.scene())}};
     }
 
-    static void fail_on_validation(const engine::Device& device)
-    {
-        const std::vector<std::string> messages = device.validation_messages();
-        if (!messages.empty())
-            throw std::runtime_error(
-                fmt::format("{} validation messages; the first: {}", messages.size(), messages.front()));
-    }
-
+    Renderer& renderer_;
+    const Stage& stage_;
     const CaptureOptions& options_;
-    const Scene& scene_;
-    const bool terminal_;
+    Progress& progress_;
+    const std::vector<View> views_;
+    const std::vector<Shot> shots_;
+    DrawOptions draw_options_;
     std::optional<double> first_picture_ms_;
-    std::map<double, int> repetitions_;
     json days_ = json::array();
     std::vector<SheetCell> cells_;
     Writers writers_;
@@ -266,22 +180,10 @@ class Capture
 
 } // namespace
 
-void add_capture_command(CLI::App& program)
+json capture(Renderer& renderer, const Stage& stage, const CaptureOptions& options, Progress& progress,
+             std::vector<std::string>& lines)
 {
-    auto options = std::make_shared<CaptureOptions>();
-    CLI::App* command =
-        program.add_subcommand("capture", "Pictures of a wound healing, day by day, and what each cost");
-    add_scene_options(*command, *options);
-    command->add_option("--out", options->out, "Folder for the pictures, healing.png and capture.json")
-        ->capture_default_str()
-        ->type_name("DIR");
-    command->add_flag("--no-cost", options->no_cost, "Leave out the cost measurement at the end");
-    command->footer(
-        "Example: cicatrix capture --days 0:30:3 --wound photo.jpg --mask mask.png --out healing");
-    command->callback([options] {
-        const Scene scene = chosen_scene(*options);
-        Capture(*options, scene).run();
-    });
+    return Capture(renderer, stage, options, progress).run(lines);
 }
 
 } // namespace app

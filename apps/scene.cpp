@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/json_fields.hpp"
+#include "apps/scene_camera.hpp"
 #include "shaders/shared/shading.h"
 #include "wound/fit.hpp"
 #include "wound/input_error.hpp"
@@ -39,12 +40,6 @@ passes::Place read_place(Fields& fields)
     }
     fields.fail("at", "is " + value->dump(),
                 "give a named place, face coordinates [x, y] or a point [x, y, z] in metres");
-}
-
-Direction read_direction(Fields& fields, const Direction& fallback)
-{
-    return {fields.number("azimuth_deg", fallback.azimuth_deg, -180, 180),
-            fields.number("elevation_deg", fallback.elevation_deg, -89, 89)};
 }
 
 wound::Healing read_healing(const json& object, const std::string& where, const std::filesystem::path& scene)
@@ -135,17 +130,6 @@ LightScene read_light(const json& object, const std::string& where)
     light.intensity = fields.number("intensity", light.intensity, 0, 1e6);
     fields.finish();
     return light;
-}
-
-CameraScene read_camera(const json& object, const std::string& where)
-{
-    Fields fields(object, where);
-    CameraScene camera;
-    camera.from = read_direction(fields, camera.from);
-    camera.distance_m = fields.number("distance_m", camera.distance_m, 0, 100);
-    camera.fov_deg = fields.number("fov_deg", camera.fov_deg, 1, 120);
-    fields.finish();
-    return camera;
 }
 
 wound::Rung read_rung(Fields& fields, wound::Rung fallback)
@@ -292,11 +276,8 @@ json to_json(const Scene& scene)
               {"alpha_y", model.alpha_y},
               {"ambient", {shading.ambient.x, shading.ambient.y, shading.ambient.z}}}},
             {"lights", lights},
-            {"camera",
-             {{"azimuth_deg", scene.camera.from.azimuth_deg},
-              {"elevation_deg", scene.camera.from.elevation_deg},
-              {"distance_m", scene.camera.distance_m},
-              {"fov_deg", scene.camera.fov_deg}}},
+            {"camera", camera_json(scene.camera)},
+            {"views", views_json(scene.views)},
             {"size", fmt::format("{}x{}", scene.size[0], scene.size[1])},
             {"msaa", scene.samples == 4},
             {"exposure_stops", scene.exposure_stops},
@@ -334,6 +315,7 @@ Scene read_scene(const std::filesystem::path& path)
     }
     if (const json* camera = fields.get("camera"))
         scene.camera = read_camera(*camera, file + "/camera");
+    scene.views = read_views(fields, file);
     if (const json* size = fields.get("size"))
         scene.size = parse_size(size->is_string() ? size->get<std::string>() : size->dump(), file + "/size");
     scene.samples = fields.boolean("msaa", scene.samples == 4) ? 4 : 1;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,13 @@ struct CameraScene
     double fov_deg = 20;   // vertical
 };
 
+/// A camera beside the scene's own, or the name of one that every scene has (apps/shots.hpp).
+struct ViewScene
+{
+    std::string name; // letters, digits, - and _: it goes into names of files
+    std::optional<CameraScene> camera;
+};
+
 /// The mended equations with coefficients for skin, and everything as the paper prints it.
 passes::Shading corrected_shading();
 passes::Shading published_shading();
@@ -68,6 +76,7 @@ struct Scene
     std::vector<LightScene> lights{{{-38, 28}, 0.9, false, true, {1.0, 0.96, 0.91}, 1.25},
                                    {{60, 10}, 1.2, false, true, {0.86, 0.92, 1.0}, 0.4}};
     CameraScene camera;
+    std::vector<ViewScene> views; // what `capture` shows; empty: `camera` alone
     std::array<std::uint32_t, 2> size{1280, 720};
     std::uint32_t samples = 1; // 1 or 4
     double exposure_stops = 0; // each doubles the light

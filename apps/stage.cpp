@@ -251,14 +251,23 @@ std::vector<wound::WoundDay> Stage::wounds_on(double day) const
     return today;
 }
 
-passes::Camera Stage::camera() const
+passes::Camera Stage::camera(const CameraScene& from) const
 {
     const double half_height = 0.98 * props_.face.unit_m; // from the neck to the crown
-    const double distance = scene_.camera.distance_m > 0
-                                ? scene_.camera.distance_m
-                                : half_height / std::tan(glm::radians(scene_.camera.fov_deg) / 2);
+    const double distance =
+        from.distance_m > 0 ? from.distance_m : half_height / std::tan(glm::radians(from.fov_deg) / 2);
     const glm::dvec3 target = face_middle(props_.face);
-    return {target + distance * unit_towards(scene_.camera.from), target, scene_.camera.fov_deg};
+    return {target + distance * unit_towards(from.from), target, from.fov_deg};
+}
+
+glm::dvec3 Stage::head_middle() const
+{
+    return face_middle(props_.face) - glm::dvec3(0, 0, 0.3 * props_.face.unit_m);
+}
+
+shared::View Stage::view(const passes::Camera& camera, const passes::Canvas& canvas) const
+{
+    return passes::make_view(camera, head_, canvas);
 }
 
 passes::Camera Stage::close_up(std::size_t wound) const
@@ -275,12 +284,11 @@ passes::Camera Stage::close_up(std::size_t wound) const
 
 passes::FrameImages Stage::declare(engine::Graph& graph, const std::vector<wound::WoundDay>& today,
                                    const passes::Camera& camera, const passes::Shading& shading,
-                                   std::array<std::uint32_t, 2> size) const
+                                   const passes::Canvas& canvas) const
 {
     passes::FrameInput input{head_, wounds_, today, lights_, camera, shading};
     input.reflectance = scene_.reflectance_model;
-    input.width = size[0];
-    input.height = size[1];
+    input.canvas = canvas;
     input.samples = scene_.samples;
     input.exposure = float(scene_.exposure_stops);
     return passes::add_frame(graph, input);

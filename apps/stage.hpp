@@ -48,14 +48,21 @@ class Stage
     void set_tissue(const wound::HealingTissue& tissue);
 
     /// The scene's camera.
-    passes::Camera camera() const;
+    passes::Camera camera() const { return camera(scene_.camera); }
+    passes::Camera camera(const CameraScene& from) const;
     /// Looks straight at a wound, or at the face's middle in a head without any.
     passes::Camera close_up(std::size_t wound) const;
 
-    /// Declares the frame of one day. `size` is the picture's.
+    /// The middle of the skull, about which a camera that goes round the head turns; straight behind the
+    /// middle of the face, at which camera() looks.
+    glm::dvec3 head_middle() const;
+    /// What a camera sees on a canvas.
+    shared::View view(const passes::Camera& camera, const passes::Canvas& canvas) const;
+
+    /// Declares the frame of one day. `canvas`: the picture's size, or one of its tiles.
     passes::FrameImages declare(engine::Graph& graph, const std::vector<wound::WoundDay>& today,
                                 const passes::Camera& camera, const passes::Shading& shading,
-                                std::array<std::uint32_t, 2> size) const;
+                                const passes::Canvas& canvas) const;
 
   private:
     const wound::Healing& healing(std::size_t wound) const; // of a placed wound

@@ -68,18 +68,24 @@ void give_wounds(engine::Draw& draw, const ForwardInput& input, bool wounded, en
 
 } // namespace
 
-shared::View make_view(const Camera& camera, const Head& head, double aspect)
+glm::dmat4 view_from_world(const Camera& camera)
+{
+    const glm::dvec3 sight = camera.target - camera.eye;
+    const glm::dvec3 up =
+        std::abs(sight.y) > 0.999 * glm::length(sight) ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+    return glm::lookAt(camera.eye, camera.target, up);
+}
+
+shared::View make_view(const Camera& camera, const Head& head, const Canvas& canvas)
 {
     const glm::dvec3 low(head.min), high(head.max);
     const double radius = 0.5 * glm::distance(low, high);
     const double distance = glm::distance(camera.eye, 0.5 * (low + high));
     const double near = std::max(distance - radius, 0.02), far = distance + radius + 0.1;
-    glm::dmat4 projection = glm::perspective(glm::radians(camera.fov_deg), aspect, near, far);
+    glm::dmat4 projection = glm::perspective(glm::radians(camera.fov_deg), canvas.aspect(), near, far);
     projection[1][1] *= -1; // Vulkan's y points down
-    const glm::dvec3 sight = camera.target - camera.eye;
-    const glm::dvec3 up =
-        std::abs(sight.y) > 0.999 * glm::length(sight) ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
-    return {shared::mat4(projection * glm::lookAt(camera.eye, camera.target, up)), to_vec3(camera.eye)};
+    return {shared::mat4(tile_from_picture(canvas) * projection * view_from_world(camera)),
+            to_vec3(camera.eye)};
 }
 
 shared::WoundFrame wound_frame(const PlacedWound& wound)

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "engine/graph.hpp"
+#include "passes/canvas.hpp"
 #include "passes/head.hpp"
 #include "passes/placement.hpp"
 #include "passes/reflectance_lut.hpp"
@@ -33,8 +34,11 @@ struct Camera
     glm::dvec3 eye{0, 0, 1}, target{0, 0, 0}; // metres
     double fov_deg = 20;                      // vertical
 };
-/// Depth range fitted to a head of these bounds.
-shared::View make_view(const Camera& camera, const Head& head, double aspect);
+/// To the camera's own coordinates: x right, y up, z towards the viewer.
+glm::dmat4 view_from_world(const Camera& camera);
+/// What a tile of the picture sees (the whole, when the canvas is no tile). Depth range fitted to a head of
+/// these bounds.
+shared::View make_view(const Camera& camera, const Head& head, const Canvas& canvas);
 
 struct PlacedWound
 {
@@ -58,7 +62,8 @@ struct ForwardInput
 };
 
 /// Adds one raster pass that runs every frame; the result is linear radiance, RGBA16F, alpha 1 on the head
-/// and 0 beside it. `samples` is 1 or 4; with 4 the result is resolved.
+/// and 0 beside it; at its edges, radiance is premultiplied. `samples` is 1 or 4; with 4 the result is
+/// resolved.
 engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, const shared::View& view,
                             const Shading& shading, const engine::ImageDesc& target);
 

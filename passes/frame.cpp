@@ -25,10 +25,12 @@ FrameImages add_frame(engine::Graph& graph, const FrameInput& input)
         forward.shadow = fit_shadow(input.lights.front(), input.head.min, input.head.max);
     if (forward.shadow)
         forward.shadow_depth = add_shadow(graph, *forward.shadow, *input.head.mesh, input.head.casters);
-    const engine::ImageId radiance =
-        add_forward(graph, forward, make_view(input.camera, input.head, double(input.width) / input.height),
-                    input.shading, {input.width, input.height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
-    images.picture = add_tonemap(graph, radiance, input.exposure, Highlights::SoftShoulder, studio);
+    const auto [width, height] = input.canvas.size;
+    images.radiance =
+        add_forward(graph, forward, make_view(input.camera, input.head, input.canvas), input.shading,
+                    {width, height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
+    images.picture = add_tonemap(graph, images.radiance, input.exposure, Highlights::SoftShoulder,
+                                 backdrop_of(input.canvas));
     return images;
 }
 

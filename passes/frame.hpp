@@ -30,13 +30,15 @@ struct FrameInput
     Camera camera;
     Shading shading;
     wound::Rung reflectance = wound::Rung::TwoStream;
-    std::uint32_t width = 1280, height = 720, samples = 1;
+    Canvas canvas;
+    std::uint32_t samples = 1;
     float exposure = 1;
 };
 
 struct FrameImages
 {
-    engine::ImageId picture; // RGBA8, sRGB-encoded
+    engine::ImageId picture;  // RGBA8, sRGB-encoded
+    engine::ImageId radiance; // RGBA16F, linear, neither exposed nor with a backdrop, premultiplied
     std::vector<WoundTexture> wounds;
 };
 

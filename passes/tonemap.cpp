@@ -4,6 +4,15 @@
 
 namespace passes {
 
+Backdrop backdrop_of(const Canvas& canvas)
+{
+    if (canvas.transparent)
+        return {.transparent = true};
+    const glm::vec3 top{0.045f, 0.05f, 0.058f}, bottom{0.17f, 0.18f, 0.195f};
+    const auto at = [&](double y) { return glm::mix(top, bottom, float(y / canvas.picture[1])); };
+    return {at(canvas.corner[1]), at(double(canvas.corner[1]) + canvas.size[1])};
+}
+
 engine::ImageId add_tonemap(engine::Graph& graph, engine::ImageId hdr, float exposure, Highlights highlights,
                             const Backdrop& backdrop)
 {
@@ -20,6 +29,7 @@ engine::ImageId add_tonemap(engine::Graph& graph, engine::ImageId hdr, float exp
     } const block{std::exp2(exposure), backdrop.top, backdrop.bottom};
     pass.uniform("ExposureBlock", block);
     pass.constant("shoulder", highlights == Highlights::SoftShoulder);
+    pass.constant("transparent", backdrop.transparent);
     pass.dispatch(size.width, size.height);
     return encoded;
 }

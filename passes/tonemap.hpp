@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "engine/graph.hpp"
+#include "passes/canvas.hpp"
 
 namespace passes {
 
@@ -13,15 +14,19 @@ enum class Highlights : std::uint8_t
     Clip,
 };
 
-/// What stands behind the head, where the radiance's alpha is 0: a vertical gradient, linear, not exposed.
+/// What stands behind the head, where the radiance's alpha is 0: a vertical gradient, linear, not exposed; or
+/// nothing.
 struct Backdrop
 {
-    glm::vec3 top{0}, bottom{0};
+    glm::vec3 top{0}, bottom{0}; // of the image
+    bool transparent = false;
 };
-inline constexpr Backdrop studio{{0.045f, 0.05f, 0.058f}, {0.17f, 0.18f, 0.195f}};
+/// The studio's, from the top of the whole picture to its bottom; of a tile, its part of that.
+Backdrop backdrop_of(const Canvas& canvas);
 
-/// Adds one pass. `hdr` is linear Rec. 709; the result, of the same size, is RGBA8 UNORM holding sRGB codes,
-/// opaque. `exposure` in stops: each doubles the light. No dither, so that equal frames give equal files.
+/// Adds one pass. `hdr` is linear Rec. 709, premultiplied by its alpha; the result, of the same size, is
+/// RGBA8 UNORM holding sRGB codes: opaque, or with a transparent backdrop straight alpha. `exposure` in
+/// stops: each doubles the light. No dither, so that equal frames give equal files.
 engine::ImageId add_tonemap(engine::Graph& graph, engine::ImageId hdr, float exposure,
                             Highlights highlights = Highlights::SoftShoulder, const Backdrop& backdrop = {});
 

@@ -6,6 +6,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool shoulder = true;
+layout(constant_id = 1) const bool transparent = false; // straight alpha instead of a backdrop
 layout(binding = 0) uniform sampler2D hdr;
 layout(binding = 1, rgba8) uniform writeonly image2D encoded;
 layout(binding = 2, scalar) uniform ExposureBlock { float exposure_factor; vec3 top, bottom; }; // multiplies linear light; the backdrop, encoded as it is
@@ -16,9 +17,13 @@ void main()
     if (any(greaterThanEqual(texel, imageSize(encoded))))
         return;
     vec4 radiance = texelFetch(hdr, texel, 0);
+    float alpha = clamp(radiance.a, 0.0, 1.0);
     vec3 linear = finite_radiance(radiance.rgb) * exposure_factor;
+    if (transparent && alpha > 0.0) // the colour of what is there, however little of it
+        linear /= alpha;
     if (shoulder)
         linear = soft_shoulder(linear);
-    linear += (1.0 - clamp(radiance.a, 0.0, 1.0)) * mix(top, bottom, (float(texel.y) + 0.5) / float(imageSize(encoded).y));
-    imageStore(encoded, texel, vec4(srgb_from_linear(min(linear, 1.0)), 1.0));
+    if (!transparent)
+        linear += (1.0 - alpha) * mix(top, bottom, (float(texel.y) + 0.5) / float(imageSize(encoded).y));
+    imageStore(encoded, texel, vec4(srgb_from_linear(min(linear, 1.0)), transparent ? alpha : 1.0));
 }
