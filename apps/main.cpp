@@ -8,6 +8,7 @@
 #include "apps/bake.hpp"
 #include "apps/bake_head.hpp"
 #include "apps/capture.hpp"
+#include "apps/demo.hpp"
 #include "apps/graph_command.hpp"
 #include "apps/info.hpp"
 #include "apps/reflect.hpp"
@@ -51,6 +52,7 @@ int main(int argc, char** argv)
     program.footer("Example: cicatrix capture --days 0:30:3 --out healing\nEach command explains itself: "
                    "cicatrix capture --help");
     try {
+        app::add_demo_command(program);
         app::add_capture_command(program);
         app::add_graph_command(program);
         app::add_info_command(program);

@@ -128,7 +128,7 @@ Device::Device(const DeviceOptions& options) : messages(std::make_unique<Message
     try {
         create_instance(options);
         const std::string wanted = options.device.empty() ? environment("CICATRIX_DEVICE") : options.device;
-        physical = choose_device(enumerate_devices(vk_instance), wanted);
+        physical = choose_device(enumerate_devices(vk_instance, options.wishes), wanted);
         create_device(options);
     } catch (...) {
         destroy();
@@ -189,7 +189,7 @@ void Device::create_device(const DeviceOptions& options)
     VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &v12};
     features.features.shaderStorageImageExtendedFormats = VK_TRUE;
     features.features.pipelineStatisticsQuery = physical.info.statistics ? VK_TRUE : VK_FALSE;
-    std::vector<const char*> extensions = options.device_extensions;
+    std::vector<const char*> extensions = options.wishes.extensions;
     if (physical.info.calibrated)
         extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
 

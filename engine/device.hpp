@@ -18,7 +18,8 @@ struct DeviceOptions
 {
     std::string device;      // part of a name or an index; empty: environment CICATRIX_DEVICE, else the best
     bool validation = false; // with synchronisation validation; CICATRIX_VALIDATION=1 does the same
-    std::vector<const char*> instance_extensions, device_extensions; // beyond what headless work needs
+    std::vector<const char*> instance_extensions; // beyond what headless work needs
+    DeviceWishes wishes;                          // the same of the device
 };
 
 /// Neither copied nor moved; everything made from it must be gone before it.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstring>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -136,7 +137,24 @@ void describe_memory_and_driver(PhysicalDevice& device)
     device.info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
 }
 
-PhysicalDevice inspect(VkPhysicalDevice handle)
+void check_wishes(PhysicalDevice& device, VkInstance instance, const DeviceWishes& wishes)
+{
+    std::uint32_t count = 0;
+    check(vkEnumerateDeviceExtensionProperties(device.handle, nullptr, &count, nullptr),
+          "list the extensions");
+    std::vector<VkExtensionProperties> offered(count);
+    check(vkEnumerateDeviceExtensionProperties(device.handle, nullptr, &count, offered.data()),
+          "list the extensions");
+    for (const char* wanted : wishes.extensions)
+        if (std::ranges::none_of(offered, [&](const VkExtensionProperties& extension) {
+                return std::strcmp(extension.extensionName, wanted) == 0;
+            }))
+            device.info.missing.push_back(wanted);
+    if (wishes.presents && !wishes.presents(instance, device.handle, device.queue_family))
+        device.info.missing.push_back("drawing to this display's windows");
+}
+
+PhysicalDevice inspect(VkInstance instance, VkPhysicalDevice handle, const DeviceWishes& wishes)
 {
     PhysicalDevice device{.handle = handle};
     vkGetPhysicalDeviceProperties(handle, &device.properties);
@@ -155,6 +173,7 @@ PhysicalDevice inspect(VkPhysicalDevice handle)
     }
     describe_memory_and_driver(device);
     check_requirements(device);
+    check_wishes(device, instance, wishes);
     return device;
 }
 
@@ -194,7 +213,7 @@ const PhysicalDevice* find_wanted(const std::vector<PhysicalDevice>& devices, st
 
 } // namespace
 
-std::vector<PhysicalDevice> enumerate_devices(VkInstance instance)
+std::vector<PhysicalDevice> enumerate_devices(VkInstance instance, const DeviceWishes& wishes)
 {
     std::uint32_t count = 0;
     check(vkEnumeratePhysicalDevices(instance, &count, nullptr), "list the devices");
@@ -202,7 +221,7 @@ std::vector<PhysicalDevice> enumerate_devices(VkInstance instance)
     check(vkEnumeratePhysicalDevices(instance, &count, handles.data()), "list the devices");
     std::vector<PhysicalDevice> devices;
     for (const VkPhysicalDevice handle : handles)
-        devices.push_back(inspect(handle));
+        devices.push_back(inspect(instance, handle, wishes));
     return devices;
 }
 

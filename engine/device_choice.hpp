@@ -1,5 +1,6 @@
 // Which Vulkan devices there are, what each offers, what we ask of one, and which is taken.
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,7 +33,15 @@ struct PhysicalDevice
     std::uint32_t timestamp_bits = 0;
 };
 
-std::vector<PhysicalDevice> enumerate_devices(VkInstance instance);
+/// What a window asks of a device on top of what drawing does.
+struct DeviceWishes
+{
+    std::vector<const char*> extensions;
+    std::function<bool(VkInstance, VkPhysicalDevice, std::uint32_t queue_family)>
+        presents; // empty: no window
+};
+
+std::vector<PhysicalDevice> enumerate_devices(VkInstance instance, const DeviceWishes& wishes = {});
 
 /// The device that `wanted` names (an index in the list, or part of a name, any case), or, when it is empty,
 /// the best fit one: discrete before integrated before virtual before CPU. Throws cicatrix::InputError saying

@@ -84,6 +84,17 @@ TEST_F(DeviceTest, DescribesEveryDevice)
     EXPECT_THAT(gpu::device().info().driver, Not(IsEmpty()));
 }
 
+TEST_F(DeviceTest, WhatAWindowWishesCountsAmongWhatADeviceLacks)
+{
+    const auto missing = [](const DeviceWishes& wishes) {
+        return enumerate_devices(gpu::device().instance(), wishes).front().info.missing;
+    };
+    EXPECT_THAT(missing({{VK_KHR_SWAPCHAIN_EXTENSION_NAME}, {}}), IsEmpty());
+    EXPECT_THAT(missing({{"VK_NO_such_thing"}, {}}), testing::ElementsAre("VK_NO_such_thing"));
+    EXPECT_THAT(missing({{}, [](VkInstance, VkPhysicalDevice, std::uint32_t) { return false; }}),
+                testing::ElementsAre("drawing to this display's windows"));
+}
+
 TEST_F(DeviceTest, AnUnknownDeviceIsTheUsersMistake)
 {
     EXPECT_THROW(Device({.device = "no such device"}), InputError);

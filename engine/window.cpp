@@ -1,0 +1,191 @@
+#include "engine/window.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <cstdio>
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <utility>
+
+#include "engine/vulkan_check.hpp"
+#include "wound/input_error.hpp"
+
+// Declared by GLFW only where Vulkan's own prototypes are, which volk replaces.
+extern "C" {
+const char** glfwGetRequiredInstanceExtensions(std::uint32_t* count);
+int glfwGetPhysicalDevicePresentationSupport(VkInstance instance, VkPhysicalDevice device,
+                                             std::uint32_t queue_family);
+VkResult glfwCreateWindowSurface(VkInstance instance, GLFWwindow* window,
+                                 const VkAllocationCallbacks* allocator, VkSurfaceKHR* surface);
+}
+
+namespace engine {
+
+namespace {
+
+using cicatrix::InputError;
+
+constexpr const char* without_window = "cicatrix capture works without a window";
+
+std::string last_glfw_error()
+{
+    const char* description = nullptr;
+    glfwGetError(&description);
+    return description ? description : "no reason given";
+}
+
+Window& self(GLFWwindow* window)
+{
+    return *static_cast<Window*>(glfwGetWindowUserPointer(window));
+}
+
+Window* the_window = nullptr; // for Xlib's handler, which is given no pointer of ours
+
+/// Xlib ends the process when this returns; its own last words are left out by not returning.
+int display_lost(void*)
+{
+    if (the_window && the_window->on_display_lost)
+        the_window->on_display_lost();
+    std::fputs("cicatrix: display: the connection was lost; open the window again on a running display\n",
+               stderr);
+    std::fflush(nullptr);
+    ::_exit(1);
+}
+
+/// GLFW loads Xlib at run time, and so do we; on other window systems there is none and nothing to do.
+void watch_display()
+{
+    void* xlib = ::dlopen("libX11.so.6", RTLD_NOW | RTLD_NOLOAD);
+    if (xlib == nullptr)
+        return;
+    using Handler = int (*)(void*);
+    using SetHandler = Handler (*)(Handler);
+    if (const auto set = reinterpret_cast<SetHandler>(::dlsym(xlib, "XSetIOErrorHandler")))
+        set(display_lost);
+}
+
+} // namespace
+
+Window::Window(const std::string& title, std::array<int, 2> size)
+{
+    if (!glfwInit())
+        throw InputError("display", fmt::format("no window can be opened: {}", last_glfw_error()),
+                         fmt::format("set DISPLAY (or log in to a desktop); {}", without_window));
+    watch_display();
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    window = glfwCreateWindow(size[0], size[1], title.c_str(), nullptr, nullptr);
+    if (window == nullptr) {
+        const std::string reason = last_glfw_error();
+        glfwTerminate();
+        throw InputError("display", fmt::format("no window can be opened: {}", reason), without_window);
+    }
+    the_window = this;
+    install_callbacks();
+}
+
+Window::~Window()
+{
+    the_window = nullptr;
+    glfwDestroyWindow(window);
+    glfwTerminate();
+}
+
+void Window::install_callbacks()
+{
+    glfwSetWindowUserPointer(window, this);
+    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { self(w).damaged = true; });
+    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { self(w).damaged = true; });
+    glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { self(w).damaged = true; });
+    glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { self(w).damaged = true; });
+    glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+        for (int i = 0; i < count; ++i)
+            self(w).dropped.emplace_back(paths[i]);
+    });
+}
+
+std::vector<const char*> Window::instance_extensions() const
+{
+    std::uint32_t count = 0;
+    const char** names = glfwGetRequiredInstanceExtensions(&count);
+    if (names == nullptr)
+        throw InputError(
+            "Vulkan", fmt::format("it cannot draw to this display: {}", last_glfw_error()),
+            fmt::format("install a driver that can (Debian: mesa-vulkan-drivers); {}", without_window));
+    return {names, names + count};
+}
+
+bool Window::can_present(VkInstance instance, VkPhysicalDevice device, std::uint32_t queue_family)
+{
+    return glfwGetPhysicalDevicePresentationSupport(instance, device, queue_family) == GLFW_TRUE;
+}
+
+VkSurfaceKHR Window::make_surface(VkInstance instance) const
+{
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    check(glfwCreateWindowSurface(instance, window, nullptr, &surface), "draw to the window");
+    return surface;
+}
+
+std::array<std::uint32_t, 2> Window::size() const
+{
+    if (minimised())
+        return {0, 0};
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window, &width, &height);
+    return {std::uint32_t(width), std::uint32_t(height)};
+}
+
+bool Window::minimised() const
+{
+    return glfwGetWindowAttrib(window, GLFW_ICONIFIED) == GLFW_TRUE;
+}
+
+float Window::content_scale() const
+{
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window, &x, &y);
+    return x;
+}
+
+bool Window::close_wanted() const
+{
+    return glfwWindowShouldClose(window) == GLFW_TRUE;
+}
+
+void Window::close()
+{
+    glfwSetWindowShouldClose(window, GLFW_TRUE);
+}
+
+void Window::set_title(const std::string& title)
+{
+    glfwSetWindowTitle(window, title.c_str());
+}
+
+void Window::wait(std::optional<double> seconds)
+{
+    if (!seconds)
+        glfwWaitEvents();
+    else if (*seconds > 0)
+        glfwWaitEventsTimeout(*seconds);
+    else
+        glfwPollEvents();
+}
+
+void Window::wake()
+{
+    glfwPostEmptyEvent();
+}
+
+bool Window::take_damaged()
+{
+    return std::exchange(damaged, false);
+}
+
+std::vector<std::filesystem::path> Window::take_dropped()
+{
+    return std::exchange(dropped, {});
+}
+
+} // namespace engine
