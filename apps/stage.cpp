@@ -162,9 +162,10 @@ std::shared_ptr<const engine::Model> read_head(const Scene& scene, std::vector<s
 {
     const std::filesystem::path file = scene.head.empty() ? default_head_path() : scene.head;
     if (scene.head.empty() && !std::filesystem::exists(file))
-        throw cicatrix::InputError(
-            file.string(), "the default head has not been made yet",
-            "run ./run setup (needs the network once), or give a head of your own with --head FILE.glb");
+        throw cicatrix::InputError(file.string(), "the default head has not been made yet",
+                                   "make it once with cicatrix-fetch-head (from a checkout: ./run setup), or "
+                                   "give one of your own with "
+                                   "--head FILE.glb");
     auto head = std::make_shared<engine::Model>(engine::load_model(file));
     engine::normalise_size(*head);
     for (const std::string& note : head->notes)

@@ -59,6 +59,7 @@ void add_warps_command(CLI::App& program)
     CLI::App* command =
         program.add_subcommand("warps", "Print error, area, folds and cost of every warp (docs/warp.md)");
     command->add_option("masks", *masks, "Masks whose borders are measured too")->type_name("MASK");
+    command->footer("Example: cicatrix warps mask.png");
     command->callback([masks] { measure_warps(*masks); });
 }
 
@@ -71,6 +72,7 @@ void add_segmentation_command(CLI::App& program)
         ->required()
         ->type_name("PHOTO");
     command->add_option("mask", files->second, "The wound white on black")->required()->type_name("MASK");
+    command->footer("Example: cicatrix segmentation photo.png mask.png");
     command->callback([files] { measure_segmentation(files->first, files->second); });
 }
 
