@@ -7,6 +7,7 @@
 #include "apps/bake.hpp"
 #include "apps/bake_head.hpp"
 #include "engine/image_io.hpp"
+#include "passes/skin_under.hpp"
 #include "shaders/shared/shading.h"
 #include "wound/drawn_region.hpp"
 #include "wound/input_error.hpp"
@@ -57,8 +58,8 @@ wound::Light make_light(const LightScene& scene, const passes::FaceFrame& face)
     return light;
 }
 
-/// From face coordinates (unit: nose to crown) to those of the tissue map: ears at x = +-1, hairline and chin
-/// at y = +-1.
+/// From face coordinates (unit: nose to crown) to those of the tissue map: ears at x = +-1, hairline and
+/// chin at y = +-1.
 cv::Point2d tissue_coordinates(const passes::FacePoint& face)
 {
     return {face.x / 0.55, face.y / (face.y > 0 ? 0.65 : 0.58)};
@@ -177,6 +178,7 @@ std::shared_ptr<const engine::Model> read_head(const Scene& scene, std::vector<s
 
 Stage::Props Stage::prepare(const Scene& scene)
 {
+    // Photographs are read and prepared while the head is being read.
     std::vector<EarlyWound> early;
     for (std::size_t i = 0; i < scene.wounds.size(); ++i)
         early.emplace_back(scene.wounds[i], name_of(scene.wounds[i], i));
@@ -223,6 +225,14 @@ void Stage::set_lights(const std::vector<LightScene>& lights)
     }
     scene_.lights = lights;
     lights_ = std::move(made);
+}
+
+cv::Mat1f Stage::surface_mm2(std::size_t wound) const
+{
+    const passes::WoundMaps& maps = wounds_.at(wound).maps;
+    return passes::surface_under(head(), passes::skin_material(head()), props_.anchors[wound],
+                                 maps.size)(maps.region)
+        .clone();
 }
 
 passes::LutTissue Stage::table_tissue(std::size_t wound) const

@@ -40,6 +40,10 @@ class Stage
     /// The placed wounds, and for each the index of the scene's wound that it is (a component) of.
     const std::vector<wound::PreparedWound>& prepared() const { return prepared_; }
     const std::vector<std::size_t>& scene_wounds() const { return props_.scene_wounds; }
+    const engine::Model& head() const { return *props_.head; }
+    const std::vector<passes::Anchor>& anchors() const { return props_.anchors; }
+    /// The head's surface in mm2 under each texel of a wound's maps of today (passes/skin_under.hpp).
+    cv::Mat1f surface_mm2(std::size_t wound) const;
     std::vector<wound::WoundDay> wounds_on(double day) const;
     /// From the next frame on. Throws cicatrix::InputError and keeps the old ones when one is out of range.
     void set_lights(const std::vector<LightScene>& lights);

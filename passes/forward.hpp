@@ -49,8 +49,12 @@ struct PlacedWound
     const wound::WoundDay* today = nullptr;
 };
 
-/// As the shaders read it (project_wound() and add_wound() in shaders/lib/wound_projection.glsl).
-shared::WoundFrame wound_frame(const PlacedWound& wound);
+/// As the shaders read them (project_wound() and add_wound() in shaders/lib/wound_projection.glsl).
+struct WoundUniform
+{
+    shared::WoundFrame frames[shared::MAX_WOUNDS];
+};
+WoundUniform wound_frames(std::span<const PlacedWound> wounds);
 
 struct ForwardInput
 {

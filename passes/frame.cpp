@@ -26,11 +26,13 @@ FrameImages add_frame(engine::Graph& graph, const FrameInput& input)
     if (forward.shadow)
         forward.shadow_depth = add_shadow(graph, *forward.shadow, *input.head.mesh, input.head.casters);
     const auto [width, height] = input.canvas.size;
-    images.radiance =
-        add_forward(graph, forward, make_view(input.camera, input.head, input.canvas), input.shading,
-                    {width, height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
+    const shared::View view = make_view(input.camera, input.head, input.canvas);
+    images.radiance = add_forward(graph, forward, view, input.shading,
+                                  {width, height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
     images.picture = add_tonemap(graph, images.radiance, input.exposure, Highlights::SoftShoulder,
                                  backdrop_of(input.canvas));
+    images.labels = add_labels(graph, input.head, placed, view, label_camera(input.camera, input.canvas),
+                               input.canvas.size);
     return images;
 }
 

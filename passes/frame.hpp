@@ -6,6 +6,7 @@
 #include "engine/graph.hpp"
 #include "passes/forward.hpp"
 #include "passes/head.hpp"
+#include "passes/labels.hpp"
 #include "passes/reflectance_lut.hpp"
 #include "passes/wound_texture.hpp"
 #include "wound/wound.hpp"
@@ -40,6 +41,7 @@ struct FrameImages
     engine::ImageId picture;  // RGBA8, sRGB-encoded
     engine::ImageId radiance; // RGBA16F, linear, neither exposed nor with a backdrop, premultiplied
     std::vector<WoundTexture> wounds;
+    LabelImages labels; // cost nothing unless they are read back
 };
 
 FrameImages add_frame(engine::Graph& graph, const FrameInput& input);

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <limits>
 
-#include "wound/color.hpp"
 #include "wound/input_error.hpp"
 
 namespace passes {
@@ -82,26 +81,6 @@ glm::dvec3 mean_normal(const engine::Model& head, const glm::dvec3& centre, doub
             sum += (1 - t * t) * (1 - t * t) * glm::dvec3(vertex.normal);
     }
     return glm::length(sum) > 1e-9 ? glm::normalize(sum) : direction;
-}
-
-glm::dvec3 in_frame(const Anchor& anchor, const glm::dvec3& point)
-{
-    const glm::dvec3 d = (point - anchor.centre) / anchor.half_width_m;
-    return {glm::dot(d, anchor.right), glm::dot(d, anchor.down), glm::dot(d, anchor.normal)};
-}
-
-cv::Vec3f linear_albedo(const engine::Material& material, const glm::dvec2& uv)
-{
-    const glm::vec4 factor = material.base_color_factor;
-    if (material.base_color.empty())
-        return {factor.x, factor.y, factor.z};
-    const auto wrap = [](double t, int n) {
-        return std::clamp(int(std::floor((t - std::floor(t)) * n)), 0, n - 1);
-    };
-    const cv::Vec4b texel =
-        material.base_color(wrap(uv.y, material.base_color.rows), wrap(uv.x, material.base_color.cols));
-    const auto linear = [&](int channel) { return wound::srgb_to_linear(texel[channel] / 255.0f); };
-    return {linear(0) * factor.x, linear(1) * factor.y, linear(2) * factor.z};
 }
 
 /// The face coordinates and the normal of an anchor whose centre and size are known.
@@ -203,6 +182,12 @@ Anchor anchor_beside(const engine::Model& head, const FaceFrame& face, const Anc
     return anchor;
 }
 
+glm::dvec3 in_frame(const Anchor& anchor, const glm::dvec3& point)
+{
+    const glm::dvec3 d = (point - anchor.centre) / anchor.half_width_m;
+    return {glm::dot(d, anchor.right), glm::dot(d, anchor.down), glm::dot(d, anchor.normal)};
+}
+
 bool receives(const Anchor& anchor, const std::array<glm::vec3, 3>& corners)
 {
     glm::dvec3 low(1e30), high(-1e30);
@@ -212,51 +197,6 @@ bool receives(const Anchor& anchor, const std::array<glm::vec3, 3>& corners)
         high = glm::max(high, q);
     }
     return low.x <= 1 && high.x >= -1 && low.y <= 1 && high.y >= -1 && low.z <= reach && high.z >= -reach;
-}
-
-cv::Mat3f skin_under(const engine::Model& head, std::uint32_t material, const Anchor& anchor, int size)
-{
-    cv::Mat3f skin(size, size, cv::Vec3f::all(std::numeric_limits<float>::quiet_NaN()));
-    cv::Mat1d nearest(size, size, -reach);
-    for (const engine::Primitive& primitive : head.primitives) {
-        if (primitive.material != material)
-            continue;
-        for (std::size_t i = primitive.first_index;
-             i + 2 < std::size_t(primitive.first_index) + primitive.index_count; i += 3)
-        {
-            const auto corners = corners_of(head, i);
-            if (!receives(anchor, corners))
-                continue;
-            std::array<glm::dvec3, 3> q;
-            std::array<glm::dvec2, 3> uv;
-            for (int k = 0; k < 3; ++k) {
-                q[k] = in_frame(anchor, glm::dvec3(corners[k]));
-                uv[k] = glm::dvec2(head.vertices[head.indices[i + k]].uv);
-            }
-            const auto cross = [](const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.y - a.y * b.x; };
-            const double area = cross(q[1] - q[0], q[2] - q[0]);
-            if (area >= -1e-12) // v points down: what faces the patch turns clockwise in (u, v)
-                continue;
-            const auto texel = [&](double t) { return (t + 1) * 0.5 * size - 0.5; };
-            const int x0 = std::max(0, int(std::ceil(texel(std::min({q[0].x, q[1].x, q[2].x})))));
-            const int x1 = std::min(size - 1, int(std::floor(texel(std::max({q[0].x, q[1].x, q[2].x})))));
-            const int y0 = std::max(0, int(std::ceil(texel(std::min({q[0].y, q[1].y, q[2].y})))));
-            const int y1 = std::min(size - 1, int(std::floor(texel(std::max({q[0].y, q[1].y, q[2].y})))));
-            for (int y = y0; y <= y1; ++y)
-                for (int x = x0; x <= x1; ++x) {
-                    const glm::dvec3 p((x + 0.5) * 2 / size - 1, (y + 0.5) * 2 / size - 1, 0);
-                    const double b = cross(p - q[0], q[2] - q[0]) / area,
-                                 c = cross(q[1] - q[0], p - q[0]) / area;
-                    const double height = q[0].z + b * (q[1].z - q[0].z) + c * (q[2].z - q[0].z);
-                    if (b < 0 || c < 0 || b + c > 1 || height <= nearest(y, x) || height > reach)
-                        continue;
-                    nearest(y, x) = height;
-                    skin(y, x) = linear_albedo(head.materials[material],
-                                               uv[0] + b * (uv[1] - uv[0]) + c * (uv[2] - uv[0]));
-                }
-        }
-    }
-    return skin;
 }
 
 } // namespace passes

@@ -1,9 +1,7 @@
-// Where on a head a wound sits: the face's own coordinates, the wound's frame on the skin, and what of the
-// head lies under its patch.
+// Where on a head a wound sits: the face's own coordinates and the wound's frame on the skin.
 #pragma once
 #include <array>
 #include <glm/glm.hpp>
-#include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <variant>
@@ -65,11 +63,11 @@ Anchor anchor_wound(const engine::Model& head, const FaceFrame& face, const Plac
 /// (naming `where`) when there is no skin.
 Anchor anchor_beside(const engine::Model& head, const FaceFrame& face, const Anchor& first,
                      const glm::dvec2& offset_m, double patch_width_mm, const std::string& where);
+/// A point of the head in the anchor's frame: x along `right`, y along `down`, z above the patch's plane, in
+/// half widths.
+glm::dvec3 in_frame(const Anchor& anchor, const glm::dvec3& point);
 
 /// True when the triangle can receive the anchor's projection: it overlaps the patch's box and faces it.
 bool receives(const Anchor& anchor, const std::array<glm::vec3, 3>& corners);
-
-/// The skin's linear reflectance under the patch, size x size; NaN where the projection misses the head.
-cv::Mat3f skin_under(const engine::Model& head, std::uint32_t material, const Anchor& anchor, int size);
 
 } // namespace passes

@@ -67,7 +67,8 @@ TEST(CommandDocuments, HoldEveryCommandAndOptionOfTheHelp)
     for (const std::string& command : commands()) {
         const std::set<std::string> names = options(help({command}));
         EXPECT_THAT(names, testing::Contains("--help")) << command;
-        const std::string section = between(man, ".SS cicatrix " + std::regex_replace(command, std::regex("-"), "\\-"), ".SS");
+        const std::string section =
+            between(man, ".SS cicatrix " + std::regex_replace(command, std::regex("-"), "\\-"), ".SS");
         const std::string words = between(bash, fmt::format("        {}) words=", command), ";;");
         const std::string zsh_words = between(zsh, fmt::format("        {})\n", command), ";;");
         for (const std::string& name : names) {
@@ -85,8 +86,8 @@ TEST(CommandDocuments, EveryHelpTeachesWithAnExample)
 {
     EXPECT_THAT(help({}), HasSubstr("Example: cicatrix "));
     for (const std::string& command : commands())
-        EXPECT_TRUE(std::regex_search(help({command}),
-                                      std::regex("Examples?:\\s+cicatrix " + command + "\\b")))
+        EXPECT_TRUE(
+            std::regex_search(help({command}), std::regex("Examples?:\\s+cicatrix " + command + "\\b")))
             << command << ": " << help({command});
 }
 

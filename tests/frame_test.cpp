@@ -95,7 +95,7 @@ TEST_F(Frame, RunsAgainOnlyWhatAChangeReaches)
     studio.shading.shadow = false;
     const engine::FrameResult unshadowed = studio.draw(4);
     EXPECT_THAT(ran(unshadowed), UnorderedElementsAre("forward", "tonemap"));
-    EXPECT_EQ(unshadowed.passes.size(), 5u) << "no shadow pass is declared";
+    EXPECT_EQ(unshadowed.passes.size(), 6u) << "no shadow pass is declared, and the labels are culled";
 }
 
 TEST_F(Frame, OfEveryWoundRunsAgainWhatTheDayReaches)
@@ -118,7 +118,7 @@ TEST_F(Frame, WithoutWoundsDeclaresNoneOfTheirPasses)
     scene.wounds.clear();
     Studio studio(scene);
     const engine::FrameResult first = studio.draw(0);
-    EXPECT_EQ(first.passes.size(), 3u);
+    EXPECT_EQ(first.passes.size(), 4u) << "and the labels are culled";
     EXPECT_THAT(ran(first), UnorderedElementsAre("shadow", "forward", "tonemap"));
     EXPECT_THAT(ran(studio.draw(9)), UnorderedElementsAre("forward", "tonemap"));
 }

@@ -28,9 +28,9 @@ struct AreaSeries
 std::vector<AreaSeries> read_area_table(const std::filesystem::path& file);
 std::vector<AreaSeries> read_area_table(std::istream& text, std::string_view where);
 
-/// What the mean over several wounds is: of their ratios, each wound its own measure, or the mean area of those
-/// measured on a day over the mean area of all on their first: then a day on which a large wound was missed looks
-/// healed.
+/// What the mean over several wounds is: of their ratios, each wound its own measure, or the mean area of
+/// those measured on a day over the mean area of all on their first: then a day on which a large wound was
+/// missed looks healed.
 enum class MeanOf
 {
     ratios,
