@@ -153,6 +153,7 @@ void add_bake_command(CLI::App& app)
         ->check(CLI::Range(100.0, 1e10))
         ->capture_default_str();
     command->add_flag("--compare", *comparing, "Measure every model against the photon walk");
+    command->footer("Example: cicatrix bake --tissue dark --out out/bake");
     command->callback(
         [options, comparing] { *comparing ? compare(*options, std::cout) : bake(*options, std::cout); });
 }

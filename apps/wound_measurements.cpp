@@ -91,6 +91,7 @@ void add_segmentation_command(CLI::App& program)
         ->required()
         ->type_name("PHOTO");
     command->add_option("mask", files->second, "The wound white on black")->required()->type_name("MASK");
+    command->footer("Example: cicatrix segmentation photo.png mask.png");
     command->callback([files] { measure_segmentation(files->first, files->second); });
 }
 
