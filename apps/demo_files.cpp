@@ -257,7 +257,7 @@ void DemoWindow::save_picture(std::filesystem::path file)
         shown_ = {}; // the executor makes room for the other size
         const Drawing drawing = draw(
             *renderer_, *stage_, {state_.playback.day, "", stage_->camera(), file.stem().string()}, options);
-        engine::write_png(file, drawing.picture);
+        engine::write_png(file, cv::Mat3b(drawing.picture));
         state_.notices.say(fmt::format("Saved {}", file.string()), now_s());
     });
     settle_ = 2;

@@ -17,7 +17,8 @@ class TimelineAxis
 {
   public:
     /// `closure_day`: infinite for a wound that never closes.
-    explicit TimelineAxis(double closure_day = 30, double least_days = 30);
+    explicit TimelineAxis(double closure_day, double least_days = 30);
+    TimelineAxis() : TimelineAxis(30) {}
 
     double day_at(double fraction) const; // of the axis, 0..1
     double fraction_of(double day) const; // the inverse
