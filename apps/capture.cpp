@@ -118,6 +118,8 @@ class Capture
         }
         if (!today.empty())
             record.update(record["wounds"][0]); // the first wound's numbers also stand at the top
+        for (std::size_t i = 0; i < today.size(); ++i)
+            record["wounds"][i]["scene_wound"] = stage_.scene_wounds()[i]; // index into the scene's wounds
         if (options_.after_picture)
             options_.after_picture(stage_, shot, record);
         if (options_.sheet && on_sheet(days_.size()))

@@ -106,7 +106,7 @@ Drawing draw(Renderer& renderer, const Stage& stage, const Shot& shot, const Dra
         std::vector<engine::ReadbackId> states;
         if (first)
             for (const passes::WoundTexture& wound : images.wounds)
-                states.push_back(graph.readback("state", wound.state));
+                states.push_back(graph.readback(fmt::format("state {}", states.size()), wound.state));
 
         const engine::FrameResult frame = renderer.executor.run(graph);
         cv::Mat encoded;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/json_fields.hpp"
+#include "apps/output.hpp"
 #include "apps/scene_camera.hpp"
 #include "shaders/shared/shading.h"
 #include "wound/fit.hpp"
@@ -65,6 +66,33 @@ wound::Healing read_healing(const json& object, const std::string& where, const 
     return healing;
 }
 
+wound::SegmentationHints read_hints(const json& object, const std::string& where)
+{
+    constexpr double most = 1 << 20; // whether they lie in the photograph is seen when that is read
+    Fields fields(object, where);
+    wound::SegmentationHints hints;
+    if (fields.has("rect")) {
+        const auto rect = fields.numbers<4>("rect", {}, 0, most);
+        hints.rect = cv::Rect(int(rect[0]), int(rect[1]), int(rect[2]), int(rect[3]));
+    }
+    if (fields.has("seed")) {
+        const auto seed = fields.numbers<2>("seed", {}, 0, most);
+        hints.seed = cv::Point(int(seed[0]), int(seed[1]));
+    }
+    fields.finish();
+    return hints;
+}
+
+json hints_to_json(const wound::SegmentationHints& hints)
+{
+    json object = json::object();
+    if (hints.rect)
+        object["rect"] = {hints.rect->x, hints.rect->y, hints.rect->width, hints.rect->height};
+    if (hints.seed)
+        object["seed"] = {hints.seed->x, hints.seed->y};
+    return object;
+}
+
 WoundScene read_wound(const json& object, const std::string& where, const std::filesystem::path& scene)
 {
     Fields fields(object, where);
@@ -79,8 +107,14 @@ WoundScene read_wound(const json& object, const std::string& where, const std::f
     wound.depth_factor = fields.number("depth_factor", wound.depth_factor, 0, 5);
     if (const json* healing = fields.get("healing"))
         wound.healing = read_healing(*healing, fields.where("healing"), scene);
+    if (const json* hints = fields.get("segmentation"))
+        wound.segmentation = read_hints(*hints, fields.where("segmentation"));
     if (!wound.mask.empty() && wound.photo.empty())
         fields.fail("mask", "is given without a photo", "name the photo it belongs to");
+    if (wound.segmentation.any() && wound.photo.empty())
+        fields.fail("segmentation", "is given without a photo", "name the photo in which to look");
+    if (wound.segmentation.any() && !wound.mask.empty())
+        fields.fail("segmentation", "is given beside a mask", "give one of the two: a mask needs no hints");
     fields.finish();
     return wound;
 }
@@ -198,6 +232,7 @@ json to_json(const Scene& scene)
         const wound::Healing& healing = wound.healing;
         wounds.push_back({{"photo", wound.photo.string()},
                           {"mask", wound.mask.string()},
+                          {"segmentation", hints_to_json(wound.segmentation)},
                           {"kind", wound.kind},
                           {"seed", wound.seed},
                           {"at", at},
@@ -290,6 +325,27 @@ Scene read_scene(const std::filesystem::path& path)
         scene.days = read_days(*days, file + "/days");
     fields.finish();
     return scene;
+}
+
+void save_scene(const std::filesystem::path& path, const Scene& scene)
+{
+    const std::filesystem::path folder = std::filesystem::absolute(path).lexically_normal().parent_path();
+    const auto named_from_there = [&](const std::filesystem::path& file) {
+        if (file.empty())
+            return file;
+        const std::filesystem::path whole = std::filesystem::absolute(file).lexically_normal();
+        const std::filesystem::path relative = whole.lexically_relative(folder);
+        return relative.empty() || *relative.begin() == ".." ? whole : relative;
+    };
+    Scene saved = scene;
+    saved.head = named_from_there(scene.head);
+    for (WoundScene& wound : saved.wounds) {
+        wound.photo = named_from_there(wound.photo);
+        wound.mask = named_from_there(wound.mask);
+    }
+    if (scene.tissue.ends_with(".json"))
+        saved.tissue = named_from_there(scene.tissue).string();
+    write_json(path, to_json(saved));
 }
 
 std::vector<double> parse_days(const std::string& text, const std::string& where)

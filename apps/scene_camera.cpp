@@ -23,6 +23,7 @@ CameraScene camera_fields(Fields& fields)
     camera.from = read_direction(fields, camera.from);
     camera.distance_m = fields.number("distance_m", camera.distance_m, 0, 100);
     camera.fov_deg = fields.number("fov_deg", camera.fov_deg, 1, 120);
+    camera.target_m = fields.numbers<3>("target_m", camera.target_m, -1, 1);
     return camera;
 }
 
@@ -75,7 +76,8 @@ json camera_json(const CameraScene& camera)
     return {{"azimuth_deg", camera.from.azimuth_deg},
             {"elevation_deg", camera.from.elevation_deg},
             {"distance_m", camera.distance_m},
-            {"fov_deg", camera.fov_deg}};
+            {"fov_deg", camera.fov_deg},
+            {"target_m", camera.target_m}};
 }
 
 json views_json(const std::vector<ViewScene>& views)

@@ -4,6 +4,35 @@
 
 namespace app {
 
+wound::SegmentationHints HintOptions::hints(const std::string& mask) const
+{
+    if (!mask.empty() && !(seed.empty() && rect.empty()))
+        throw cicatrix::InputError("--seed, --rect", "are given beside a mask",
+                                   "give one of the two: a mask needs no hints");
+    wound::SegmentationHints hints;
+    if (!seed.empty())
+        hints.seed = cv::Point(seed[0], seed[1]);
+    if (!rect.empty())
+        hints.rect = cv::Rect(rect[0], rect[1], rect[2], rect[3]);
+    return hints;
+}
+
+void add_hint_options(CLI::App& command, HintOptions& options)
+{
+    command
+        .add_option("--seed", options.seed,
+                    "A pixel of the photograph inside the wound, when there is no mask")
+        ->delimiter(',')
+        ->expected(2)
+        ->type_name("X,Y");
+    command
+        .add_option("--rect", options.rect,
+                    "A rectangle of the photograph around the wound, when there is no mask")
+        ->delimiter(',')
+        ->expected(4)
+        ->type_name("X,Y,W,H");
+}
+
 void add_scene_options(CLI::App& command, SceneOptions& options)
 {
     command
@@ -16,6 +45,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
         .add_option("--mask", options.mask,
                     "Mask for that photograph, white where the wound is; without one it is segmented")
         ->type_name("PICTURE");
+    add_hint_options(command, options.hints);
     command.add_option("--days", options.days, "Days to show: first:last:step, or a list such as 0,5,12")
         ->type_name("DAYS");
     command.add_option("--size", options.size, "Size of the pictures, for example 1280x720")
@@ -32,24 +62,34 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
                      "Run under the Vulkan validation layers; a message is a failure");
 }
 
+namespace {
+
+/// The first wound, from --wound, --mask, --seed and --rect.
+void override_wound(const SceneOptions& options, Scene& scene)
+{
+    const wound::SegmentationHints hints = options.hints.hints(options.mask);
+    if (options.wound.empty() && options.mask.empty() && !hints.any())
+        return;
+    if (scene.wounds.empty())
+        scene.wounds.resize(1);
+    WoundScene& wound = scene.wounds.front();
+    if (!options.wound.empty())
+        wound.photo = options.wound;
+    wound.mask = options.mask; // the scene's goes with another photo, or is what the hints replace
+    wound.segmentation = hints;
+    if (wound.photo.empty())
+        throw cicatrix::InputError(options.mask.empty() ? "--seed, --rect" : "--mask",
+                                   "is given without a photo", "name the photo it belongs to with --wound");
+}
+
+} // namespace
+
 Scene chosen_scene(const SceneOptions& options)
 {
     Scene scene = options.scene.empty() ? Scene{} : read_scene(options.scene);
     if (!options.head.empty())
         scene.head = options.head;
-    if (!options.wound.empty() || !options.mask.empty()) {
-        if (scene.wounds.empty())
-            scene.wounds.resize(1);
-        if (!options.wound.empty()) {
-            scene.wounds.front().photo = options.wound;
-            scene.wounds.front().mask.clear();
-        }
-        if (!options.mask.empty())
-            scene.wounds.front().mask = options.mask;
-        if (scene.wounds.front().photo.empty())
-            throw cicatrix::InputError("--mask", "is given without a photo",
-                                       "name the photo it belongs to with --wound");
-    }
+    override_wound(options, scene);
     if (!options.days.empty())
         scene.days = parse_days(options.days, "--days");
     if (!options.size.empty())

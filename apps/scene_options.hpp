@@ -9,9 +9,19 @@
 
 namespace app {
 
+/// --seed X,Y and --rect X,Y,W,H: where in a photograph the wound is.
+struct HintOptions
+{
+    std::vector<int> seed, rect;
+    /// Throws cicatrix::InputError when there is a mask, too.
+    wound::SegmentationHints hints(const std::string& mask) const;
+};
+void add_hint_options(CLI::App& command, HintOptions& options);
+
 struct SceneOptions
 {
     std::string scene, head, wound, mask, days, size, mode, device;
+    HintOptions hints;
     bool msaa = false, validation = false;
 };
 

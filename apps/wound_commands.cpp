@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/output.hpp"
+#include "apps/scene_options.hpp"
 #include "apps/wound_page.hpp"
 #include "engine/image_io.hpp"
 #include "wound/fit.hpp"
@@ -59,7 +60,7 @@ struct WoundCommand
 {
     std::string photo, mask;
     std::filesystem::path out = "out/wound";
-    std::vector<int> seed, rect;
+    HintOptions hints;
     double width_mm = 30, spacing = 0;
     std::string model = "face";
 };
@@ -73,10 +74,7 @@ void show_wound(const WoundCommand& command)
     wound::Preparation preparation;
     preparation.where = command.photo;
     preparation.width_mm = command.width_mm;
-    if (!command.seed.empty())
-        preparation.hints.seed = cv::Point(command.seed[0], command.seed[1]);
-    if (!command.rect.empty())
-        preparation.hints.rect = cv::Rect(command.rect[0], command.rect[1], command.rect[2], command.rect[3]);
+    preparation.hints = command.hints.hints(command.mask);
     preparation.control_spacing = 2 * command.spacing; // a patch is 2 patch units wide
     const std::vector<wound::PreparedWound> all = wound::prepare_all(photograph, preparation);
     wound::Healing healing;
@@ -124,14 +122,7 @@ void add_wound_command(CLI::App& program)
         ->type_name("PHOTO");
     command->add_option("--mask", options->mask, "White where the wound is; without one it is segmented")
         ->type_name("PICTURE");
-    command->add_option("--seed", options->seed, "A pixel inside the wound")
-        ->delimiter(',')
-        ->expected(2)
-        ->type_name("X,Y");
-    command->add_option("--rect", options->rect, "A rectangle around the wound, in pixels")
-        ->delimiter(',')
-        ->expected(4)
-        ->type_name("X,Y,W,H");
+    add_hint_options(*command, options->hints);
     command->add_option("--width-mm", options->width_mm, "The wound's longer side on the skin, mm")
         ->capture_default_str()
         ->check(CLI::Range(0.5, 200.0));

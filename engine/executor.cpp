@@ -108,6 +108,7 @@ struct Executor::Frame
 {
     explicit Frame(const Device& device) : slot(device) {}
 
+    std::vector<std::shared_ptr<const void>> kept; // Graph::keep; the slot, destroyed first, waits
     FrameSlot slot;
     std::uint64_t number = 0;
     Clock::time_point start, recorded, submitted;
@@ -140,6 +141,7 @@ FrameToken Executor::submit(const Graph& graph)
 
     Frame& frame = *frames[submitted % frames.size()];
     frame.slot.wait();
+    frame.kept = graph.kept; // those of the frame that used the slot last can go
     frame.result = {};
     frame.result.plan = schedule(graph, memory);
     frame.start = start;
@@ -168,6 +170,7 @@ FrameResult Executor::finish(FrameToken token)
     frame.slot.wait();
     const Clock::time_point done = Clock::now();
     FrameResult result = std::move(frame.result);
+    frame.kept.clear();
     frame.number = 0;
     if (frame.slot.has_timestamps())
         read_times(frame, done, result);
@@ -183,6 +186,13 @@ FrameResult Executor::finish(FrameToken token)
     result.host.readback_ms = milliseconds(end - done);
     result.frame_ms = milliseconds(end - frame.start);
     return result;
+}
+
+bool Executor::up_to_date(const Graph& graph) const
+{
+    const Plan plan = schedule(graph, memory);
+    return std::ranges::none_of(plan.passes,
+                                [](const PassPlan& pass) { return pass.state == PassState::Run; });
 }
 
 /// The timestamps of a frame that was done at `done`: two of each pass that ran, two of the copies.

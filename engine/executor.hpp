@@ -118,6 +118,11 @@ class Executor
     /// Must be asked for before the second submit after this one.
     FrameResult finish(FrameToken token);
 
+    /// Whether the frame would show what is there already: no pass of it would run. Asked before submitting,
+    /// so that a window in which nothing changes draws nothing. A pass that asks to run every frame is never
+    /// up to date. Throws std::logic_error as run() does.
+    bool up_to_date(const Graph& graph) const;
+
     /// From the next frame on. Nothing at first.
     void measure(const Measuring& what) { measuring = what; }
 

@@ -74,7 +74,7 @@ Draw& RasterPass::draw(std::string_view shader)
 
 ImageId Graph::image(std::string_view name, const ImageDesc& desc)
 {
-    images.push_back({std::string(name), desc, {}});
+    images.push_back({name_prefix + std::string(name), desc, {}});
     return {static_cast<std::uint32_t>(images.size() - 1)};
 }
 
@@ -85,14 +85,14 @@ ImageId Graph::import(std::string_view name, const Texture& texture)
 
 ImageId Graph::import(std::string_view name, const ExternalImage& external)
 {
-    images.push_back({std::string(name), external.desc, external});
+    images.push_back({name_prefix + std::string(name), external.desc, external});
     return {static_cast<std::uint32_t>(images.size() - 1)};
 }
 
 ComputePass& Graph::compute(std::string_view name, std::string_view shader)
 {
     ComputePass pass;
-    pass.name = name;
+    pass.name = name_prefix + std::string(name);
     pass.shader = shader;
     return std::get<ComputePass>(passes.emplace_back(std::move(pass)));
 }
@@ -100,7 +100,7 @@ ComputePass& Graph::compute(std::string_view name, std::string_view shader)
 RasterPass& Graph::raster(std::string_view name)
 {
     RasterPass pass;
-    pass.name = name;
+    pass.name = name_prefix + std::string(name);
     return std::get<RasterPass>(passes.emplace_back(std::move(pass)));
 }
 

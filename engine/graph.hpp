@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -120,6 +121,11 @@ class Graph
     /// Leaves an image ready to be copied from (to a window,
     /// for instance) after the frame: Executor::presented().
     void present(ImageId image);
+    /// Put before the names of what is declared from now on, so that one recipe can be declared twice.
+    void prefix(std::string_view names) { name_prefix = names; }
+    /// Something the frame reads on the device, a texture or a mesh, lives until the frame is finished,
+    /// even if its owner lets go of it before.
+    void keep(std::shared_ptr<const void> used) { kept.push_back(std::move(used)); }
 
     struct Image
     {
@@ -136,6 +142,10 @@ class Graph
     std::deque<Pass> passes;
     std::vector<Readback> readbacks;
     std::vector<ImageId> presented;
+    std::vector<std::shared_ptr<const void>> kept;
+
+  private:
+    std::string name_prefix;
 };
 
 const std::string& name_of(const Pass& pass);

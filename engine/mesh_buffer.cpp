@@ -2,6 +2,7 @@
 
 #include "engine/texture.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -13,10 +14,21 @@ MeshBuffer::MeshBuffer(const Device& device, std::span<const Vertex> vertices,
     : count(static_cast<std::uint32_t>(indices.size())), content_id(new_content_id())
 {
     assert(!vertices.empty() && !indices.empty());
-    vertex_buffer =
-        upload_buffer(device, std::as_bytes(vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " vertices");
+    vertex_buffer = std::make_shared<const Buffer>(upload_buffer(
+        device, std::as_bytes(vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " vertices"));
     index_buffer =
         upload_buffer(device, std::as_bytes(indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
+}
+
+MeshBuffer::MeshBuffer(const Device& device, const MeshBuffer& vertices_of,
+                       std::span<const std::uint32_t> indices, const std::string& name)
+    : vertex_buffer(vertices_of.vertex_buffer),
+      index_buffer(device, indices.size_bytes(), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, HostAccess::Write,
+                   name + " indices"),
+      count(static_cast<std::uint32_t>(indices.size())), content_id(new_content_id())
+{
+    assert(!indices.empty());
+    std::ranges::copy(std::as_bytes(indices), index_buffer.mapped().begin());
 }
 
 const VertexAttribute* vertex_attribute(std::string_view name)

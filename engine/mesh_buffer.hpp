@@ -3,6 +3,7 @@
 #include "engine/memory.hpp"
 #include "engine/model.hpp"
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,15 +15,20 @@ class MeshBuffer
   public:
     MeshBuffer(const Device& device, std::span<const Vertex> vertices, std::span<const std::uint32_t> indices,
                const std::string& name);
+    /// Other triangles of the same vertices, which are shared. The indices are written where the CPU can
+    /// reach them, so that nothing waits for the frames in flight.
+    MeshBuffer(const Device& device, const MeshBuffer& vertices_of, std::span<const std::uint32_t> indices,
+               const std::string& name);
 
-    VkBuffer vertices() const { return vertex_buffer.handle(); }
+    VkBuffer vertices() const { return vertex_buffer->handle(); }
     VkBuffer indices() const { return index_buffer.handle(); }
     std::uint32_t index_count() const { return count; }
     /// Different for every mesh ever made in this process.
     std::uint64_t content() const { return content_id; }
 
   private:
-    Buffer vertex_buffer, index_buffer;
+    std::shared_ptr<const Buffer> vertex_buffer;
+    Buffer index_buffer;
     std::uint32_t count = 0;
     std::uint64_t content_id = 0;
 };

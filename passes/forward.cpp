@@ -17,17 +17,26 @@ shared::vec3 to_vec3(const glm::dvec3& v)
     return shared::vec3(v);
 }
 
-struct WoundUniform
+shared::WoundFrame wound_frame(const PlacedWound& wound)
 {
-    shared::WoundFrame frames[shared::MAX_WOUNDS];
-};
-
-WoundUniform wound_frames(std::span<const PlacedWound> wounds)
-{
-    WoundUniform uniform{};
-    for (std::size_t i = 0; i < wounds.size(); ++i)
-        uniform.frames[i] = wound_frame(wounds[i]);
-    return uniform;
+    const Anchor& anchor = wound.anchor;
+    const wound::WoundDay& today = *wound.today;
+    const cv::Vec3f blood = wound::blood_absorbance;
+    return {.centre = to_vec3(anchor.centre),
+            .half_width = float(anchor.half_width_m),
+            .right = to_vec3(anchor.right),
+            .reach = float(Anchor::reach),
+            .down = to_vec3(anchor.down),
+            .day = float(today.day),
+            .normal = to_vec3(anchor.normal),
+            .uv_scale = wound.texture.uv_scale,
+            .uv_offset = wound.texture.uv_offset,
+            .bed_recovery = float(today.bed_recovery),
+            .border_recovery = float(today.border_recovery),
+            .lut = wound.axes,
+            .new_skin =
+                glm::exp(-1.4f * float(today.phase.pink) * shared::vec3(blood[0], blood[1], blood[2])),
+            .epithelium = today.in_phases ? 1.0f : 0.0f};
 }
 
 shared::Part part_params(const HeadPart& part)
@@ -66,13 +75,25 @@ void give_wounds(engine::Draw& draw, const ForwardInput& input, bool wounded, en
     draw.sample("reflectance_lut", lut);
 }
 
+glm::dvec3 up_of(const Camera& camera)
+{
+    const glm::dvec3 sight = camera.target - camera.eye;
+    return std::abs(sight.y) > 0.999 * glm::length(sight) ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+}
+
 } // namespace
+
+glm::dvec3 sight_through(const Camera& camera, double x, double y, double aspect)
+{
+    const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, up_of(camera)));
+    const double half_height = std::tan(glm::radians(camera.fov_deg) / 2);
+    return forward + half_height * (x * aspect * right - y * glm::cross(right, forward));
+}
 
 glm::dmat4 view_from_world(const Camera& camera)
 {
-    const glm::dvec3 sight = camera.target - camera.eye;
-    const glm::dvec3 up =
-        std::abs(sight.y) > 0.999 * glm::length(sight) ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 up = up_of(camera);
     return glm::lookAt(camera.eye, camera.target, up);
 }
 
@@ -88,26 +109,12 @@ shared::View make_view(const Camera& camera, const Head& head, const Canvas& can
             to_vec3(camera.eye)};
 }
 
-shared::WoundFrame wound_frame(const PlacedWound& wound)
+WoundUniform wound_frames(std::span<const PlacedWound> wounds)
 {
-    const Anchor& anchor = wound.anchor;
-    const wound::WoundDay& today = *wound.today;
-    const cv::Vec3f blood = wound::blood_absorbance;
-    return {.centre = to_vec3(anchor.centre),
-            .half_width = float(anchor.half_width_m),
-            .right = to_vec3(anchor.right),
-            .reach = float(Anchor::reach),
-            .down = to_vec3(anchor.down),
-            .day = float(today.day),
-            .normal = to_vec3(anchor.normal),
-            .uv_scale = wound.texture.uv_scale,
-            .uv_offset = wound.texture.uv_offset,
-            .bed_recovery = float(today.bed_recovery),
-            .border_recovery = float(today.border_recovery),
-            .lut = wound.axes,
-            .new_skin =
-                glm::exp(-1.4f * float(today.phase.pink) * shared::vec3(blood[0], blood[1], blood[2])),
-            .epithelium = today.in_phases ? 1.0f : 0.0f};
+    WoundUniform uniform{};
+    for (std::size_t i = 0; i < wounds.size(); ++i)
+        uniform.frames[i] = wound_frame(wounds[i]);
+    return uniform;
 }
 
 engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, const shared::View& view,
@@ -123,7 +130,8 @@ engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, con
     else
         pass.color(radiance, {0, 0, 0, 0});
     pass.depth(graph.image("depth", {target.width, target.height, VK_FORMAT_D32_SFLOAT, target.samples}));
-    pass.every_frame();
+    if (input.every_frame)
+        pass.every_frame();
 
     pass.constant("LIGHTS", std::uint32_t(input.lights.size()));
     pass.constant("LAMBERT", shading.lambert);

@@ -27,6 +27,7 @@ struct Shading
     bool lambert = true, translucency = true, ward = true;
     bool normal_map = true, shadow = true;
     glm::vec3 ambient{0}; // linear radiance of the surroundings; 0 leaves the term out
+    bool operator==(const Shading&) const = default;
 };
 
 struct Camera
@@ -40,6 +41,10 @@ glm::dmat4 view_from_world(const Camera& camera);
 /// these bounds.
 shared::View make_view(const Camera& camera, const Head& head, const Canvas& canvas);
 
+/// The direction, not of unit length, from the eye through a place of the picture: x from -1 (left) to 1, y
+/// from -1 (top) to 1.
+glm::dvec3 sight_through(const Camera& camera, double x, double y, double aspect);
+
 struct PlacedWound
 {
     Anchor anchor;
@@ -49,8 +54,12 @@ struct PlacedWound
     const wound::WoundDay* today = nullptr;
 };
 
-/// As the shaders read it (project_wound() and add_wound() in shaders/lib/wound_projection.glsl).
-shared::WoundFrame wound_frame(const PlacedWound& wound);
+/// As the shaders read them (project_wound() and add_wound() in shaders/lib/wound_projection.glsl).
+struct WoundUniform
+{
+    shared::WoundFrame frames[shared::MAX_WOUNDS];
+};
+WoundUniform wound_frames(std::span<const PlacedWound> wounds);
 
 struct ForwardInput
 {
@@ -59,9 +68,10 @@ struct ForwardInput
     std::span<const wound::Light> lights; // at most shared::MAX_LIGHTS; the first casts the shadow
     std::optional<shared::Shadow> shadow; // none: no shadow is cast
     engine::ImageId shadow_depth;         // used with `shadow`
+    bool every_frame = true;              // run even when nothing has changed
 };
 
-/// Adds one raster pass that runs every frame; the result is linear radiance, RGBA16F, alpha 1 on the head
+/// Adds one raster pass; the result is linear radiance, RGBA16F, alpha 1 on the head
 /// and 0 beside it; at its edges, radiance is premultiplied. `samples` is 1 or 4; with 4 the result is
 /// resolved.
 engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, const shared::View& view,

@@ -20,17 +20,20 @@ FrameImages add_frame(engine::Graph& graph, const FrameInput& input)
         placed.push_back({wound.anchor, texture, lut, wound.tissue.parameters.axes, &input.today[i]});
         images.wounds.push_back(texture);
     }
-    ForwardInput forward{input.head, placed, input.lights, {}, {}};
+    ForwardInput forward{input.head, placed, input.lights, {}, {}, input.every_frame};
     if (input.shading.shadow && !input.lights.empty())
         forward.shadow = fit_shadow(input.lights.front(), input.head.min, input.head.max);
     if (forward.shadow)
-        forward.shadow_depth = add_shadow(graph, *forward.shadow, *input.head.mesh, input.head.casters);
+        forward.shadow_depth =
+            add_shadow(graph, *forward.shadow, *input.head.caster_mesh, input.head.casters);
     const auto [width, height] = input.canvas.size;
-    images.radiance =
-        add_forward(graph, forward, make_view(input.camera, input.head, input.canvas), input.shading,
-                    {width, height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
+    const shared::View view = make_view(input.camera, input.head, input.canvas);
+    images.radiance = add_forward(graph, forward, view, input.shading,
+                                  {width, height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
     images.picture = add_tonemap(graph, images.radiance, input.exposure, Highlights::SoftShoulder,
                                  backdrop_of(input.canvas));
+    images.labels = add_labels(graph, input.head, placed, view, label_camera(input.camera, input.canvas),
+                               input.canvas.size);
     return images;
 }
 

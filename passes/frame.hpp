@@ -6,6 +6,7 @@
 #include "engine/graph.hpp"
 #include "passes/forward.hpp"
 #include "passes/head.hpp"
+#include "passes/labels.hpp"
 #include "passes/reflectance_lut.hpp"
 #include "passes/wound_texture.hpp"
 #include "wound/wound.hpp"
@@ -33,6 +34,7 @@ struct FrameInput
     Canvas canvas;
     std::uint32_t samples = 1;
     float exposure = 1;
+    bool every_frame = true; // draw the head even when nothing has changed, as those who measure it want
 };
 
 struct FrameImages
@@ -40,6 +42,7 @@ struct FrameImages
     engine::ImageId picture;  // RGBA8, sRGB-encoded
     engine::ImageId radiance; // RGBA16F, linear, neither exposed nor with a backdrop, premultiplied
     std::vector<WoundTexture> wounds;
+    LabelImages labels; // cost nothing unless they are read back
 };
 
 FrameImages add_frame(engine::Graph& graph, const FrameInput& input);

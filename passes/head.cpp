@@ -18,15 +18,12 @@ Surface surface_of(const engine::Model& model, std::uint32_t material, std::uint
     return says("eye") ? Surface::Eye : Surface::Other;
 }
 
-/// Splits a primitive's triangles into those that an anchor reaches and the rest, appending both to
-/// `indices`.
-void append_split(const engine::Model& model, const engine::Primitive& primitive,
-                  std::span<const Anchor> anchors, HeadPart part, std::vector<std::uint32_t>& indices,
-                  std::vector<HeadPart>& parts)
+/// Splits a part's triangles into those that an anchor reaches and the rest, appending both to `indices`.
+void append_split(const engine::Model& model, std::span<const Anchor> anchors, HeadPart part,
+                  std::vector<std::uint32_t>& indices, std::vector<HeadPart>& parts)
 {
     std::vector<std::uint32_t> split[2];
-    for (std::uint32_t i = primitive.first_index; i + 2 < primitive.first_index + primitive.index_count;
-         i += 3) {
+    for (std::uint32_t i = part.first_index; i + 2 < part.first_index + part.index_count; i += 3) {
         const std::uint32_t* corner = &model.indices[i];
         const std::array<glm::vec3, 3> corners{model.vertices[corner[0]].position,
                                                model.vertices[corner[1]].position,
@@ -63,14 +60,14 @@ std::uint32_t skin_material(const engine::Model& model)
     return std::uint32_t(std::ranges::max_element(area) - area.begin());
 }
 
-Head upload_head(const engine::Device& device, const engine::Model& model, std::span<const Anchor> anchors)
+Head upload_head(const engine::Device& device, const engine::Model& model)
 {
     Head head;
     head.min = model.min;
     head.max = model.max;
     const auto keep = [&](const cv::Mat& picture, engine::Encoding encoding, const std::string& name) {
         head.textures.push_back(
-            std::make_unique<engine::Texture>(device, picture, encoding, picture.total() > 1, name));
+            std::make_shared<const engine::Texture>(device, picture, encoding, picture.total() > 1, name));
         return head.textures.back().get();
     };
     head.white = keep(cv::Mat4b(1, 1, cv::Vec4b(255, 255, 255, 255)), engine::Encoding::Linear, "white");
@@ -102,15 +99,34 @@ Head upload_head(const engine::Device& device, const engine::Model& model, std::
         materials.push_back(part);
     }
 
-    std::vector<std::uint32_t> indices;
-    for (const engine::Primitive& primitive : model.primitives)
-        append_split(model, primitive, anchors, materials[primitive.material], indices, head.parts);
+    for (const engine::Primitive& primitive : model.primitives) {
+        HeadPart part = materials[primitive.material];
+        part.first_index = primitive.first_index;
+        part.index_count = primitive.index_count;
+        head.parts.push_back(part);
+    }
     std::ranges::stable_sort(head.parts, {}, &HeadPart::blend);
     for (const HeadPart& part : head.parts)
         if (!part.blend)
             head.casters.push_back({part.first_index, part.index_count, 0});
-    head.mesh = std::make_unique<engine::MeshBuffer>(device, model.vertices, indices, "head");
+    head.mesh = head.caster_mesh =
+        std::make_shared<const engine::MeshBuffer>(device, model.vertices, model.indices, "head");
     return head;
+}
+
+Head with_wounds(const engine::Device& device, const Head& head, const engine::Model& model,
+                 std::span<const Anchor> anchors)
+{
+    if (anchors.empty())
+        return head;
+    Head wounded = head;
+    wounded.parts.clear();
+    std::vector<std::uint32_t> indices;
+    for (const HeadPart& part : head.parts)
+        append_split(model, anchors, part, indices, wounded.parts);
+    wounded.mesh =
+        std::make_shared<const engine::MeshBuffer>(device, *head.mesh, indices, "head with wounds");
+    return wounded;
 }
 
 } // namespace passes

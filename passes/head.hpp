@@ -34,10 +34,11 @@ struct HeadPart
 
 struct Head
 {
-    std::vector<HeadPart> parts;            // opaque first, then blended
-    std::vector<engine::Primitive> casters; // what casts a shadow
-    std::unique_ptr<engine::MeshBuffer> mesh;
-    std::vector<std::unique_ptr<engine::Texture>> textures;
+    std::vector<HeadPart> parts; // opaque first, then blended
+    std::shared_ptr<const engine::MeshBuffer> mesh;
+    std::vector<engine::Primitive> casters; // what casts a shadow, of the mesh as it came
+    std::shared_ptr<const engine::MeshBuffer> caster_mesh;
+    std::vector<std::shared_ptr<const engine::Texture>> textures;
     const engine::Texture* white = nullptr; // one texel
     glm::vec3 min{0.0f}, max{0.0f};         // metres
 };
@@ -45,7 +46,12 @@ struct Head
 /// The material that covers the largest area: the skin.
 std::uint32_t skin_material(const engine::Model& model);
 
-/// Uploads the model. Skin triangles that an anchor's patch reaches become parts of their own.
-Head upload_head(const engine::Device& device, const engine::Model& model, std::span<const Anchor> anchors);
+/// Uploads the model, one part for each of its primitives, none of them wounded.
+Head upload_head(const engine::Device& device, const engine::Model& model);
+
+/// The same head on the device, with the skin triangles that an anchor's patch reaches in parts of their own.
+/// Vertices, textures and what casts the shadow are shared with `head`, which upload_head made of `model`.
+Head with_wounds(const engine::Device& device, const Head& head, const engine::Model& model,
+                 std::span<const Anchor> anchors);
 
 } // namespace passes

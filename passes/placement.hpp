@@ -1,9 +1,7 @@
-// Where on a head a wound sits: the face's own coordinates, the wound's frame on the skin, and what of the
-// head lies under its patch.
+// Where on a head a wound sits: the face's own coordinates and the wound's frame on the skin.
 #pragma once
 #include <array>
 #include <glm/glm.hpp>
-#include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <variant>
@@ -27,6 +25,7 @@ FaceFrame find_face(const engine::Model& head);
 struct FacePoint
 {
     double x = 0, y = 0;
+    bool operator==(const FacePoint&) const = default;
 };
 using Place = std::variant<std::string, FacePoint, glm::dvec3>;
 
@@ -52,6 +51,7 @@ struct Anchor
     glm::dvec3 centre{0.0}, right{1, 0, 0}, down{0, -1, 0}, normal{0, 0, 1};
     double half_width_m = 0.02; // of the patch
     FacePoint face;             // the centre in face coordinates
+    bool operator==(const Anchor&) const = default;
 };
 
 /// Puts a patch of `patch_width_mm` at `place`, turned by `roll_deg` counter-clockwise as the viewer sees it.
@@ -60,10 +60,17 @@ struct Anchor
 Anchor anchor_wound(const engine::Model& head, const FaceFrame& face, const Place& place,
                     double patch_width_mm, double roll_deg, const std::string& where);
 
+/// Puts a patch where it lies beside `first` in one photograph: `offset_m` (right, down) from the first's
+/// centre, projected along its normal onto the head, and turned as the first. Throws cicatrix::InputError
+/// (naming `where`) when there is no skin.
+Anchor anchor_beside(const engine::Model& head, const FaceFrame& face, const Anchor& first,
+                     const glm::dvec2& offset_m, double patch_width_mm, const std::string& where);
+
+/// A point of the head in the anchor's frame: x along `right`, y along `down`, z above the patch's plane, in
+/// half widths.
+glm::dvec3 in_frame(const Anchor& anchor, const glm::dvec3& point);
+
 /// True when the triangle can receive the anchor's projection: it overlaps the patch's box and faces it.
 bool receives(const Anchor& anchor, const std::array<glm::vec3, 3>& corners);
-
-/// The skin's linear reflectance under the patch, size x size; NaN where the projection misses the head.
-cv::Mat3f skin_under(const engine::Model& head, std::uint32_t material, const Anchor& anchor, int size);
 
 } // namespace passes

@@ -20,9 +20,9 @@ WoundMaps upload_wound(const engine::Device& device, const wound::Patch& patch)
 
     WoundMaps maps;
     maps.color =
-        std::make_unique<engine::Texture>(device, half_color, engine::Encoding::Linear, true, "day 0 color");
+        std::make_shared<const engine::Texture>(device, half_color, engine::Encoding::Linear, true, "day 0 color");
     maps.shape =
-        std::make_unique<engine::Texture>(device, half_shape, engine::Encoding::Linear, true, "day 0 shape");
+        std::make_shared<const engine::Texture>(device, half_shape, engine::Encoding::Linear, true, "day 0 shape");
     maps.bed_luminance = wound::bed_luminance(patch);
     maps.width_mm = patch.width_mm;
     maps.size = patch.color.cols;

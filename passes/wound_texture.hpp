@@ -15,8 +15,8 @@ namespace passes {
 /// A wound's day-0 maps on the device, uploaded once.
 struct WoundMaps
 {
-    std::unique_ptr<engine::Texture> color; // rgb linear reflectance, a opacity
-    std::unique_ptr<engine::Texture> shape; // r depth in mm, g coverage of the mask
+    std::shared_ptr<const engine::Texture> color; // rgb linear reflectance, a opacity
+    std::shared_ptr<const engine::Texture> shape; // r depth in mm, g coverage of the mask
     double bed_luminance = 0;               // median of the open bed
     double width_mm = 0;                    // of the patch
     int size = 0;                           // texels a side

@@ -1,7 +1,6 @@
 // The two ends of healing: on day 0 the wound's own picture is seen, at closure the skin that was there
 // before.
 #include <cmath>
-#include <future>
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
@@ -62,15 +61,12 @@ TEST_F(Endpoint, DayZeroShowsTheWoundsOwnPicture)
         scene.wounds[0].place = glm::dvec3(0);
         if (published)
             app::make_published(scene);
-        app::Stage::Props props = app::Stage::prepare(scene);
-        wound::PreparedWound prepared = props.wounds[0].get();
-        const wound::Patch patch = prepared.patch;
-        prepared.patch.depth_mm.setTo(0); // a hollow would darken itself
-        std::promise<wound::PreparedWound> ready;
-        ready.set_value(std::move(prepared));
-        props.wounds[0] = ready.get_future();
-        const double half_width = props.anchors[0].half_width_m;
-        const app::Stage stage(gpu::device(), scene, std::move(props));
+        const app::Stage::Props props = app::Stage::prepare(scene);
+        app::FittedWound& fitted = props.wounds()[0]->wounds[0];
+        const wound::Patch patch = fitted.prepared.patch;
+        fitted.prepared.patch.depth_mm.setTo(0); // a hollow would darken itself
+        const double half_width = fitted.anchor.half_width_m;
+        const app::Stage stage(gpu::device(), scene, props);
         const double fov_deg =
             2 * 180 / CV_PI * std::atan(0.5 * half_width / 1.0); // the middle half of the patch, from 1 m
         const cv::Mat3f seen = radiance(stage, 0, {{0, 0, 1}, {0, 0, 0}, fov_deg}, bare_color(scene.shading));

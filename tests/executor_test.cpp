@@ -105,6 +105,53 @@ TEST_F(ExecutorTest, WhatWasForgottenRunsAgain)
     EXPECT_THAT(states(executor.run(graph)), ElementsAre("fill ran: first run"));
 }
 
+TEST_F(ExecutorTest, KnowsBeforehandWhetherAFrameWouldRunAnything)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    const auto frame = [](float step) {
+        Graph graph;
+        graph.readback("filled", add_fill(graph, {.step = step}));
+        return graph;
+    };
+    EXPECT_FALSE(executor.up_to_date(frame(1)));
+    executor.run(frame(1));
+    EXPECT_TRUE(executor.up_to_date(frame(1)));
+    EXPECT_FALSE(executor.up_to_date(frame(2)));
+    Graph always = frame(1);
+    std::get<ComputePass>(always.passes.front()).every_frame();
+    EXPECT_FALSE(executor.up_to_date(always));
+}
+
+TEST_F(ExecutorTest, PrefixesTellTwoDeclarationsOfOneRecipeApart)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    Graph graph;
+    const ReadbackId plain = graph.readback("a", add_fill(graph, {.step = 1}));
+    graph.prefix("other ");
+    const ReadbackId other = graph.readback("b", add_fill(graph, {.step = 2}));
+    const FrameResult result = executor.run(graph);
+    EXPECT_THAT(states(result), ElementsAre("fill ran: first run", "other fill ran: first run"));
+    EXPECT_EQ(result.mat(plain).at<cv::Vec4f>(0, 1)[0], 1.25f);
+    EXPECT_EQ(result.mat(other).at<cv::Vec4f>(0, 1)[0], 2.25f);
+}
+
+TEST_F(ExecutorTest, KeepsWhatAFrameReadsUntilItIsFinished)
+{
+    Executor executor(gpu::device(), gpu::shaders());
+    auto used = std::make_shared<int>(0);
+    const std::weak_ptr<int> alive = used;
+    engine::FrameToken token;
+    {
+        Graph graph;
+        graph.readback("filled", add_fill(graph, {}));
+        graph.keep(std::move(used));
+        token = executor.submit(graph);
+    }
+    EXPECT_FALSE(alive.expired());
+    executor.finish(token);
+    EXPECT_TRUE(alive.expired());
+}
+
 TEST_F(ExecutorTest, AChangedUniformRerunsItsPassAndWhatFollows)
 {
     Executor executor(gpu::device(), gpu::shaders());

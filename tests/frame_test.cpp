@@ -76,17 +76,18 @@ TEST_F(Frame, RunsAgainOnlyWhatAChangeReaches)
     EXPECT_THAT(ran(studio.draw(4)),
                 UnorderedElementsAre("wound_texture", "wound_relief", "forward", "tonemap"));
 
-    std::vector<app::LightScene> lights = studio.stage.scene().lights;
+    app::Scene scene = studio.stage.scene();
+    std::vector<app::LightScene>& lights = scene.lights;
     lights[0].intensity *= 0.5;
-    studio.stage.set_lights(lights);
+    studio.stage.update(scene);
     EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("forward", "tonemap"));
 
     lights[0].from.azimuth_deg += 10; // the key light: it casts the shadow
-    studio.stage.set_lights(lights);
+    studio.stage.update(scene);
     EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("shadow", "forward", "tonemap"));
 
     lights[1].from.azimuth_deg += 10;
-    studio.stage.set_lights(lights);
+    studio.stage.update(scene);
     EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("forward", "tonemap"));
 
     studio.stage.set_tissue(wound::skin(wound::SkinTone::Dark));
@@ -95,7 +96,7 @@ TEST_F(Frame, RunsAgainOnlyWhatAChangeReaches)
     studio.shading.shadow = false;
     const engine::FrameResult unshadowed = studio.draw(4);
     EXPECT_THAT(ran(unshadowed), UnorderedElementsAre("forward", "tonemap"));
-    EXPECT_EQ(unshadowed.passes.size(), 5u) << "no shadow pass is declared";
+    EXPECT_EQ(unshadowed.passes.size(), 6u) << "no shadow pass is declared, and the labels are culled";
 }
 
 TEST_F(Frame, OfEveryWoundRunsAgainWhatTheDayReaches)
@@ -118,7 +119,7 @@ TEST_F(Frame, WithoutWoundsDeclaresNoneOfTheirPasses)
     scene.wounds.clear();
     Studio studio(scene);
     const engine::FrameResult first = studio.draw(0);
-    EXPECT_EQ(first.passes.size(), 3u);
+    EXPECT_EQ(first.passes.size(), 4u) << "and the labels are culled";
     EXPECT_THAT(ran(first), UnorderedElementsAre("shadow", "forward", "tonemap"));
     EXPECT_THAT(ran(studio.draw(9)), UnorderedElementsAre("forward", "tonemap"));
 }

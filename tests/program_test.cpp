@@ -150,6 +150,25 @@ TEST_F(Program, CapturesInPublishedModeWithAPhotographAndItsMask)
     EXPECT_THAT(files_in(file("out")), testing::Contains("day_009.png"));
 }
 
+TEST_F(Program, RecordsWhichOfTheScenesWoundsEachIs)
+{
+    const cv::Mat1b two = disc(128, {40, 64}, 24) | disc(128, {100, 64}, 12);
+    cv::Mat3b picture(two.size(), cv::Vec3b(208, 162, 140));
+    picture.setTo(cv::Vec3b(140, 40, 36), two);
+    with_png("photo.png", picture);
+    with_png("mask.png", two);
+    const std::string scene =
+        with("scene.json", R"({"wounds": [{"photo": "photo.png", "mask": "mask.png"}, {"at": "forehead"}]})");
+    const Outcome outcome = on_the_head({scene, "--size", "64x64", "--days", "5"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const json wounds = json::parse(bytes_of(file("out/capture.json"))).at("days").at(0).at("wounds");
+    ASSERT_EQ(wounds.size(), 3u);
+    for (int i : {0, 1, 2}) {
+        EXPECT_EQ(wounds[i].at("scene_wound"), i == 2 ? 1 : 0);
+        EXPECT_NEAR(wounds[i].at("mask_area_ratio"), wounds[i].at("unhealed_ratio").get<double>(), 0.005);
+    }
+}
+
 TEST_F(Program, PrintsItsScheduleAsTextAndGraphviz)
 {
     const Outcome outcome = run_program(

@@ -57,6 +57,8 @@ TEST_F(SceneFile, WhatIsWrittenReadsBackAsTheSameScene)
     scene.wounds[1].seed = 4294967295u;
     scene.wounds[2].photo = folder_ / "photo.jpg";
     scene.wounds[2].mask = folder_ / "mask.png";
+    scene.wounds[1].photo = folder_ / "other.jpg";
+    scene.wounds[1].segmentation = {cv::Point(3, 4), cv::Rect(1, 2, 30, 40)};
     scene.wounds[2].healing = {{0.05, 1.2, -0.1, 0}, wound::HealingModel::contraction, 0.3};
     scene.reflectance_model = wound::Rung::Clamped;
     scene.shading = app::published_shading();
@@ -99,6 +101,14 @@ TEST_F(SceneFile, EachMistakeNamesFileAndField)
         {R"({"wounds": [{"at": [1]}]})", "/wounds/0/at"},
         {R"({"wounds": [{"at": [1, 99]}]})", "/wounds/0/at"},
         {R"({"wounds": [{"mask": "m.png"}]})", "/wounds/0/mask"},
+        {R"({"wounds": [{"segmentation": {"seed": [1, 2]}}]})", "/wounds/0/segmentation"},
+        {R"({"wounds": [{"photo": "p", "mask": "m", "segmentation": {"seed": [1, 2]}}]})",
+         "/wounds/0/segmentation"},
+        {R"({"wounds": [{"photo": "p", "segmentation": {"seed": [1]}}]})", "/wounds/0/segmentation/seed"},
+        {R"({"wounds": [{"photo": "p", "segmentation": {"rect": [0, 0, -5, 5]}}]})",
+         "/wounds/0/segmentation/rect"},
+        {R"({"wounds": [{"photo": "p", "segmentation": {"point": [0, 0]}}]})",
+         "/wounds/0/segmentation/point"},
         {R"({"wounds": [{"healing": {"gamma": 0}}]})", "/wounds/0/healing/gamma"},
         {R"({"wounds": [{"healing": {"model": "magic"}}]})", "/wounds/0/healing/model"},
         {R"({"wounds": [{"healing": {"speed": 1}}]})", "/wounds/0/healing/speed"},
@@ -201,4 +211,22 @@ TEST(SceneOptions, MaskWithoutAPhotoIsRefused)
     app::SceneOptions options;
     options.mask = "mask.png";
     EXPECT_THAT(refusal([&] { app::chosen_scene(options); }), HasSubstr("--mask"));
+}
+
+TEST(SceneOptions, HintsReplaceTheScenesMask)
+{
+    const TemporaryFolder folder;
+    app::SceneOptions options;
+    options.scene =
+        folder.with("scene.json", R"({"wounds": [{"photo": "p.png", "mask": "m.png"}]})").string();
+    options.hints.rect = {1, 2, 30, 40};
+    const app::WoundScene wound = app::chosen_scene(options).wounds.at(0);
+    EXPECT_EQ(wound.photo, folder / "p.png");
+    EXPECT_EQ(wound.mask, "");
+    EXPECT_EQ(wound.segmentation.rect, cv::Rect(1, 2, 30, 40));
+    options.mask = "mask.png";
+    EXPECT_THAT(refusal([&] { app::chosen_scene(options); }), AllOf(HasSubstr("--rect"), HasSubstr("mask")));
+    options = {};
+    options.hints.seed = {3, 4};
+    EXPECT_THAT(refusal([&] { app::chosen_scene(options); }), HasSubstr("--wound"));
 }

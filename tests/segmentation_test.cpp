@@ -116,7 +116,7 @@ TEST(Mask, LargestComponentIsTakenAndHolesAreFilled)
     cv::Mat1b expected = cv::Mat1b::zeros(80, 80);
     cv::circle(expected, {50, 50}, 15, 255, cv::FILLED);
     EXPECT_EQ(cv::countNonZero(wound::checked_mask(mask, mask.size(), "m") != expected), 0);
-    const auto parts = wound::components(mask);
+    const auto parts = wound::components(mask, 9);
     ASSERT_EQ(parts.size(), 2U);
     EXPECT_GT(cv::countNonZero(parts[0]), cv::countNonZero(parts[1]));
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "shaders/shared/frame.h"
+#include "shaders/shared/labels.h"
 #include "shaders/shared/part.h"
 #include "shaders/shared/reflectance_lut.h"
 #include "shaders/shared/shading.h"
@@ -49,6 +50,13 @@ TEST(ShaderLayout, ReflectanceLut)
                         CICATRIX_MEMBER(LutParameters, n_below),
                         CICATRIX_MEMBER(LutParameters, layers_per_day),
                         CICATRIX_MEMBER(LutParameters, bands)});
+}
+
+TEST(ShaderLayout, Labels)
+{
+    gpu::expect_layout("labels.frag", "LabelCamera", sizeof(LabelCamera),
+                       {CICATRIX_MEMBER(LabelCamera, eye), CICATRIX_MEMBER(LabelCamera, forward),
+                        CICATRIX_MEMBER(LabelCamera, pixel_area)});
 }
 
 TEST(ShaderLayout, Shading)

@@ -13,6 +13,7 @@ struct TissueThickness
     double epidermis = .2; // Choi & Chin 2014, Table 1
     double dermis = 1.5;
     double subcutis = 9;
+    bool operator==(const TissueThickness&) const = default;
 };
 
 /// At a place on the face in face coordinates: x from -1 (the right ear, left in a portrait) over 0 (the

@@ -20,6 +20,7 @@ struct H3
     double gamma = 1.5;    // 0.5..4
     double theta = 0;      // day^-1, -1..1
     double asymptote = 0;  // m, the ratio never healed, 0 <= m < 1
+    bool operator==(const H3&) const = default;
 };
 
 enum class HealingModel
@@ -34,6 +35,7 @@ struct Healing
     HealingModel model = HealingModel::face;
     double residual_border = .43; // area inside the border once closed / initial; face only. Contraction
                                   // closes 57 % of a facial wound, at the least
+    bool operator==(const Healing&) const = default;
 };
 
 /// One day. r is the UNhealed ratio of eq. (1), 1 -> 0; recovery is the r of eq. (4), 0 -> 1.

@@ -10,8 +10,9 @@ namespace wound {
 
 struct Photograph
 {
-    cv::Mat3b srgb; // RGB order
-    cv::Mat1b mask; // 255 in the wound; empty: segment
+    cv::Mat3b srgb;         // RGB order
+    cv::Mat1b mask;         // 255 in the wound; empty: segment
+    cv::Mat1b other_wounds; // 255 in what is prepared as a wound of its own; empty: none
 };
 
 /// The wound at day 0 as square maps of equal size (default 512 x 512) over `width_mm` of skin.

@@ -77,6 +77,18 @@ Phase phase_at(double day, double closure_day, double age_days)
             along(rim_course, now) / along(rim_course, then), along(pink_course, now)};
 }
 
+PhaseDays phase_days(double closure_day)
+{
+    const double early = std::min(early_days, closure_day * early_days / closing_days);
+    const auto day_of = [&](double healing_time) { // the inverse of phase_at()'s
+        return healing_time < early_days ? healing_time * early / early_days
+                                         : early + (healing_time - early_days) * (closure_day - early) /
+                                                       (closing_days - early_days);
+    };
+    return {day_of(fibrin_course.front().day), day_of(granulation_course.front().day),
+            day_of(pink_course.front().day)};
+}
+
 double bed_luminance(const Patch& patch)
 {
     std::vector<float> values;

@@ -30,6 +30,14 @@ struct Phase
 /// the day of closure.
 Phase phase_at(double day, double closure_day, double age_days = 0);
 
+/// When a wound that closes on `closure_day` (> 0) begins to show each phase. From day 0 it shows blood and
+/// clot.
+struct PhaseDays
+{
+    double inflammation = 0, granulation = 0, epithelialisation = 0;
+};
+PhaseDays phase_days(double closure_day);
+
 /// Median luminance of the open bed: what dark and pale are measured against. 0 when the mask is empty.
 double bed_luminance(const Patch& patch);
 

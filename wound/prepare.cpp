@@ -61,6 +61,19 @@ cv::Mat1f first_opacity(const cv::Mat1f& mask, const cv::Mat1f& picture)
     return opacity;
 }
 
+/// Another wound of the photograph is no part of this one's picture: nearby skin stands in its place, and the
+/// opacity is shared by the distance to either.
+void leave_out(Patch& patch, const cv::Mat1f& others)
+{
+    cv::Mat1f to_own, to_others;
+    cv::distanceTransform(patch.mask <= .5F, to_own, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+    cv::distanceTransform(others <= .5F, to_others, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+    const cv::Mat1f share = to_others / (to_own + to_others + 1e-3F);
+    patch.opacity = patch.opacity.mul(share);
+    const float margin = static_cast<float>(others.cols) * .02F; // what is red beside it
+    fill_outside(patch.color, cv::min(to_others / margin, 1.F));
+}
+
 /// The photograph's square of `side` pixels around `center`, resampled to size x size.
 struct Resampling
 {
@@ -101,9 +114,24 @@ cv::Mat1f resample_mask(const cv::Mat1b& mask, const Resampling& resample)
     // A speck of a few pixels is lowered below one half by the smoothing: its own peak is the reference then.
     double peak = 0;
     cv::minMaxLoc(soft, nullptr, &peak);
-    if (peak < .75)
+    if (peak > 0 && peak < .75)
         sharp = cv::min(cv::max((soft / peak - .5F) * gain + .5F, 0), 1);
     return sharp;
+}
+
+/// The patch's square in the photograph, pixels.
+struct PhotoFrame
+{
+    cv::Point2d centroid;
+    double side = 0;
+};
+
+PhotoFrame photo_frame(const cv::Mat1b& mask)
+{
+    const cv::Rect bounds = cv::boundingRect(mask);
+    const cv::Moments moments = cv::moments(mask, true);
+    return {{moments.m10 / moments.m00, moments.m01 / moments.m00},
+            std::max(bounds.width, bounds.height) / kWoundShare};
 }
 
 void check(const Photograph& photograph, const Preparation& preparation)
@@ -127,10 +155,7 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
         checked_mask(photograph.mask.empty() ? segment(photograph.srgb, preparation.hints, preparation.where)
                                              : photograph.mask,
                      photograph.srgb.size(), preparation.where);
-    const cv::Rect bounds = cv::boundingRect(mask);
-    const cv::Moments moments = cv::moments(mask, true);
-    const cv::Point2d centroid(moments.m10 / moments.m00, moments.m01 / moments.m00);
-    const double side = std::max(bounds.width, bounds.height) / kWoundShare;
+    const auto [centroid, side] = photo_frame(mask);
 
     // A photograph much finer than the patch is made coarser first: its linear colours would need gigabytes.
     constexpr double kFinest = 4; // pixels per texel
@@ -151,6 +176,12 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
     fill_outside(patch.color, picture);
     patch.mask = resample_mask(working_mask, resample);
     patch.opacity = first_opacity(patch.mask, picture);
+    if (!photograph.other_wounds.empty()) {
+        cv::Mat1b working = photograph.other_wounds;
+        if (shrink < 1)
+            cv::resize(photograph.other_wounds, working, srgb.size(), 0, 0, cv::INTER_AREA);
+        leave_out(patch, resample_mask(working, resample));
+    }
     patch.width_mm = preparation.width_mm / kWoundShare;
     PreparedWound wound = prepare_patch(std::move(patch), preparation, false);
     wound.photo_mask = mask;
@@ -159,23 +190,40 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
     return wound;
 }
 
+std::vector<WoundPart> separate(const Photograph& photograph, double width_mm, const std::string& where)
+{
+    constexpr std::size_t kMost = 64;
+    if (photograph.mask.empty())
+        return {{photograph, width_mm, {}}};
+    const cv::Mat1b largest = checked_mask(photograph.mask, photograph.srgb.size(), where);
+    const cv::Mat1b all = photograph.mask > 127;
+    const std::vector<cv::Mat1b> masks = components(all, kMost + 1);
+    if (masks.size() > kMost)
+        throw cicatrix::InputError(where, fmt::format("the mask has more than {} components", kMost),
+                                   "paint each wound as one white area, without specks");
+    const PhotoFrame first = photo_frame(largest);
+    const double mm_per_pixel = width_mm / (first.side * kWoundShare);
+    std::vector<WoundPart> parts;
+    for (const cv::Mat1b& mask : masks) {
+        checked_mask(mask, photograph.srgb.size(), where);
+        const PhotoFrame frame = photo_frame(mask);
+        parts.push_back({{photograph.srgb, mask, masks.size() > 1 ? cv::Mat1b(all & ~mask) : cv::Mat1b()},
+                         std::max(frame.side * kWoundShare * mm_per_pixel, kLeastWidth_mm),
+                         (frame.centroid - first.centroid) * mm_per_pixel});
+    }
+    return parts;
+}
+
 std::vector<PreparedWound> prepare_all(const Photograph& photograph, const Preparation& preparation)
 {
     check(photograph, preparation);
-    if (photograph.mask.empty() || photograph.mask.size() != photograph.srgb.size())
-        return {prepare(photograph, preparation)};
     std::vector<PreparedWound> wounds;
-    for (const cv::Mat1b& component : components(photograph.mask > 127)) {
+    for (const WoundPart& part : separate(photograph, preparation.width_mm, preparation.where)) {
         Preparation one = preparation;
-        if (!wounds.empty()) { // the same millimetres per pixel as in the largest wound
-            const cv::Rect bounds = cv::boundingRect(component);
-            const double side = std::max(bounds.width, bounds.height) / kWoundShare;
-            one.width_mm = std::max(preparation.width_mm * side / wounds.front().photo_side, kLeastWidth_mm);
-        }
-        wounds.push_back(prepare({photograph.srgb, component}, one));
+        one.width_mm = part.width_mm;
+        wounds.push_back(prepare(part.photograph, one));
     }
-    return wounds.empty() ? std::vector{prepare(photograph, preparation)}
-                          : wounds; // an empty mask: refused there
+    return wounds;
 }
 
 PreparedWound prepare_patch(Patch patch, const Preparation& preparation, bool keep_depth)

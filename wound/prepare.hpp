@@ -29,8 +29,21 @@ struct Preparation
 /// match_to_skin() fits it to a face. Throws cicatrix::InputError.
 PreparedWound prepare(const Photograph& photograph, const Preparation& preparation);
 
-/// Every wound of a mask with several components, the largest first; width_mm is the largest one's, and
-/// photo_center tells how they lie. Without a mask the one wound that segmentation finds.
+/// One of the wounds of a photograph, and how it lies there.
+struct WoundPart
+{
+    Photograph photograph; // mask: this wound alone
+    double width_mm = 30;
+    cv::Point2d offset_mm; // of its centroid from the largest one's; x right, y down
+};
+
+/// The wounds of a mask with several components, the largest first, all at the scale that `width_mm`, the
+/// largest one's, gives. Without a mask the photograph as it is. Throws
+/// cicatrix::InputError (`where` names the mask) for one that checked_mask() refuses or of more than 64
+/// components.
+std::vector<WoundPart> separate(const Photograph& photograph, double width_mm, const std::string& where);
+
+/// Every wound of a photograph, prepared.
 std::vector<PreparedWound> prepare_all(const Photograph& photograph, const Preparation& preparation);
 
 /// The same for a patch made elsewhere: color, mask and width_mm are filled; depth too when `keep_depth`.

@@ -247,9 +247,9 @@ cv::Rect picture_bounds(const cv::Mat3b& srgb)
 
 [[noreturn]] void no_wound(std::string_view where, std::string_view why)
 {
-    throw cicatrix::InputError(
-        where, fmt::format("no wound found: {}", why),
-        "give a seed inside it, a rectangle around it, or a mask (--seed, --rect, --mask)");
+    throw cicatrix::InputError(where, fmt::format("no wound found: {}", why),
+                               "give a seed inside it or a rectangle around it (--seed, --rect; "
+                               "\"segmentation\" in a scene), or a mask");
 }
 
 } // namespace
@@ -309,7 +309,7 @@ cv::Mat1b segment(const cv::Mat3b& srgb, const SegmentationHints& hints, std::st
     return result;
 }
 
-std::vector<cv::Mat1b> components(const cv::Mat1b& mask)
+std::vector<cv::Mat1b> components(const cv::Mat1b& mask, std::size_t most)
 {
     cv::Mat1i labels;
     cv::Mat stats, centroids;
@@ -319,9 +319,16 @@ std::vector<cv::Mat1b> components(const cv::Mat1b& mask)
     std::iota(order.begin(), order.end(), 1);
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return area(a) > area(b); });
     std::vector<cv::Mat1b> result;
-    for (int label : order)
-        if (20 * area(label) >= area(order.front()))
-            result.push_back(fill_holes(labels == label));
+    cv::Mat1b taken = cv::Mat1b::zeros(mask.size());
+    for (int label : order) {
+        if (result.size() == most || 20 * area(label) < area(order.front()))
+            break;
+        const cv::Mat1b component = labels == label;
+        if (cv::countNonZero(component & taken) > 0)
+            continue;
+        result.push_back(fill_holes(component));
+        taken |= result.back();
+    }
     return result;
 }
 
@@ -338,7 +345,7 @@ cv::Mat1b checked_mask(const cv::Mat1b& mask, cv::Size photograph, std::string_v
         throw cicatrix::InputError(where, "the mask is empty", "paint the wound white on black");
     if (area == static_cast<int>(binary.total()))
         throw cicatrix::InputError(where, "the mask is full", "paint only the wound white, on black");
-    const cv::Mat1b wound_only = components(binary).front();
+    const cv::Mat1b wound_only = components(binary, 1).front();
     const cv::Rect bounds = cv::boundingRect(wound_only);
     if (bounds.x == 0 || bounds.y == 0 || bounds.br().x == mask.cols || bounds.br().y == mask.rows)
         throw cicatrix::InputError(where, "the wound touches the edge of the picture",

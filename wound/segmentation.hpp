@@ -14,6 +14,8 @@ struct SegmentationHints
     std::optional<cv::Point>
         seed; // pixel inside the wound; default: the middle of the rectangle or the photograph
     std::optional<cv::Rect> rect; // pixels; the wound lies inside, near its borders is skin
+    bool any() const { return seed || rect; }
+    bool operator==(const SegmentationHints&) const = default;
 };
 
 /// 255 in the wound, of the photograph's size. `srgb` in RGB order; near-black surroundings of a cropped
@@ -25,9 +27,10 @@ cv::Mat1b segment(const cv::Mat3b& srgb, const SegmentationHints& hints, std::st
 /// 255 where there is a picture: all but near-black pixels joined to its edge (circular crops, letter boxes).
 cv::Mat1b picture_area(const cv::Mat3b& srgb);
 
-/// Every component of a mask that holds at least a twentieth of the largest one's area, largest first:
-/// several wounds in one photograph.
-std::vector<cv::Mat1b> components(const cv::Mat1b& mask);
+/// The components of a mask that hold at least a twentieth of the largest one's area, holes filled, largest
+/// first, at most `most`: several wounds in one photograph. What lies in the hole of a larger one belongs to
+/// it.
+std::vector<cv::Mat1b> components(const cv::Mat1b& mask, std::size_t most);
 
 /// Checks a mask that the user gives: of the photograph's size, neither empty nor full, and off the edge of
 /// the picture (a wound cut off there has an unknown border). Returns its largest component with holes

@@ -44,6 +44,7 @@ struct Shading
     /// W: the weight up to which the brightest point, facing the light, returns no more than the light brings
     /// it: rho_d + rho_ts W = 1.
     double translucency_bound() const;
+    bool operator==(const Shading&) const = default;
 };
 
 /// Section 5 as printed.

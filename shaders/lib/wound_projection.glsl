@@ -27,7 +27,7 @@ struct WoundPlace
 };
 
 // Where a point of the head, in metres, lies in a wound's images. `geometric`: the interpolated normal, which decides what the
-// projection reaches; steep flanks fade out rather than smear.
+// projection reaches; steep flanks fade out rather than smear. `facing` in double precision: passes::share_received().
 WoundPlace project_wound(WoundFrame w, vec3 position, vec3 geometric)
 {
     const vec3 d = (position - w.centre) / w.half_width;

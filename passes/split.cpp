@@ -1,0 +1,23 @@
+#include "passes/split.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace passes {
+
+engine::ImageId add_split(engine::Graph& graph, engine::ImageId left, engine::ImageId right, double divider)
+{
+    const engine::ImageDesc size = graph.images[left.index].desc;
+    assert(graph.images[right.index].desc == size);
+    const engine::ImageId both = graph.image("split", {size.width, size.height, VK_FORMAT_R8G8B8A8_UNORM});
+    engine::ComputePass& pass = graph.compute("split", "split.comp");
+    pass.sample("left_picture", left, engine::Sampler::NearestClamp);
+    pass.sample("right_picture", right, engine::Sampler::NearestClamp);
+    pass.store("both", both);
+    pass.uniform("Divider_", std::int32_t(std::lround(std::clamp(divider, 0.0, 1.0) * size.width)));
+    pass.dispatch(size.width, size.height);
+    return both;
+}
+
+} // namespace passes

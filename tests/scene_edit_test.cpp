@@ -1,0 +1,206 @@
+// What an editor of scenes needs: picking, camera moves, undo, two settings side by side, saving.
+#include <cmath>
+#include <gmock/gmock.h>
+
+#include "apps/camera_moves.hpp"
+#include "apps/history.hpp"
+#include "apps/scene_options.hpp"
+#include "apps/stage.hpp"
+#include "passes/surface.hpp"
+#include "tests/gpu.hpp"
+#include "tests/small_head.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace {
+
+using testing::Contains;
+using testing::UnorderedElementsAre;
+
+/// Where a point is seen, -1 to 1 from left to right and from top to bottom.
+glm::dvec2 seen_at(const app::Stage& stage, const passes::Camera& camera, const passes::Canvas& canvas,
+                   const glm::dvec3& point)
+{
+    const glm::dvec4 clip = glm::dmat4(stage.view(camera, canvas).clip_from_world) * glm::dvec4(point, 1);
+    return glm::dvec2(clip.x, clip.y) / clip.w;
+}
+
+std::vector<std::string> ran(const engine::FrameResult& frame)
+{
+    std::vector<std::string> names;
+    for (const engine::PassResult& pass : frame.passes)
+        if (pass.state == engine::PassState::Run)
+            names.push_back(pass.name);
+    return names;
+}
+
+using EditTest = gpu::Test;
+
+} // namespace
+
+TEST_F(EditTest, PickingWhereAWoundIsSeenFindsItsCentre)
+{
+    app::Scene scene = small::scene(small::head());
+    scene.size = {320, 200};
+    scene.wounds.push_back({});
+    scene.wounds[1].place = std::string("forehead");
+    app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
+    const passes::Canvas canvas(scene.size);
+    for (std::size_t i : {0, 1}) {
+        const glm::dvec3 centre = stage.anchors()[i].centre;
+        const glm::dvec2 at = seen_at(stage, stage.camera(), canvas, centre);
+        const auto picked = stage.pick(stage.camera(), at.x, at.y, canvas.aspect());
+        ASSERT_TRUE(picked);
+        EXPECT_LT(glm::distance(*picked, centre), 1e-5);
+        EXPECT_EQ(stage.wound_near(*picked), i);
+        scene.wounds[i].place = *picked; // and a wound that is put there lies as before
+        stage.update(scene);
+        EXPECT_LT(glm::distance(stage.anchors()[i].centre, centre), 1e-5);
+    }
+    EXPECT_FALSE(stage.pick(stage.camera(), -.99, -.99, canvas.aspect())) << "beside the head";
+    const auto chin = stage.pick(stage.camera(), 0, .8, canvas.aspect());
+    ASSERT_TRUE(chin);
+    EXPECT_FALSE(stage.wound_near(*chin));
+}
+
+TEST_F(EditTest, DraggingMovesAWoundWithoutJumps)
+{
+    const engine::Model head = small::head();
+    const passes::FaceFrame face = passes::find_face(head);
+    glm::dvec3 last(0);
+    for (int i = 0; i <= 200; ++i) { // 5 cm over cheek and nose, in quarter millimetres
+        const auto seen = passes::first_on_ray(head, {-.025 + i * 2.5e-4, .01, 1}, {0, 0, -1});
+        ASSERT_TRUE(seen);
+        const passes::Anchor anchor = passes::anchor_wound(head, face, seen->at, 60, 0, "wound");
+        EXPECT_LT(glm::distance(anchor.centre, seen->at), 1e-9) << "under the pointer";
+        if (i > 0)
+            EXPECT_LT(glm::length(anchor.normal - last), .02) << i;
+        last = anchor.normal;
+    }
+}
+
+TEST(Surface, NearestPointIsOnATriangleAsNearAsAnyOfItsPoints)
+{
+    const engine::Model wall = small::wall({.5f, .4f, .3f});
+    const auto near = [&](double x, double y, double z) {
+        return passes::nearest_on_surface(wall, {x, y, z}).at;
+    };
+    EXPECT_LT(glm::distance(near(.013, -.037, .02), glm::dvec3(.013, -.037, 0)), 1e-9);
+    EXPECT_LT(glm::distance(near(.5, .5, .1), glm::dvec3(.12, .12, 0)), 1e-7) << "a corner";
+    EXPECT_LT(glm::distance(near(.013, -.5, -.1), glm::dvec3(.013, -.12, 0)), 1e-7) << "an edge";
+    EXPECT_FALSE(passes::first_on_ray(wall, {0, 0, -1}, {0, 0, 1})) << "seen from behind";
+}
+
+TEST(CameraMoves, KeepWhatASceneFileMayHold)
+{
+    app::CameraScene camera;
+    camera = app::orbit(camera, 200, 500);
+    EXPECT_DOUBLE_EQ(camera.from.azimuth_deg, 218 - 360);
+    EXPECT_DOUBLE_EQ(camera.from.elevation_deg, 89);
+    EXPECT_DOUBLE_EQ(app::zoom(camera, 2, .8).distance_m, .4);
+    EXPECT_GT(app::zoom(camera, 1e9, .8).distance_m, 0) << "0 would mean: as far as the head needs";
+    EXPECT_LE(app::pan(camera, 1e6, 0, .8).target_m[0], 1);
+}
+
+TEST_F(EditTest, PanningMovesTheHeadWithTheMouse)
+{
+    app::Scene scene = small::scene(small::head());
+    const app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
+    const passes::Canvas canvas(scene.size);
+    const app::CameraScene from = scene.camera;
+    const glm::dvec3 middle = stage.camera(from).target;
+    const app::CameraScene moved = app::pan(from, .1, .05, stage.distance(from));
+    const glm::dvec2 at = seen_at(stage, stage.camera(moved), canvas, middle); // picture height: 2
+    EXPECT_NEAR(at.x, .2, 1e-5);
+    EXPECT_NEAR(at.y, .1, 1e-5);
+}
+
+TEST(HistoryTest, ADragIsOneStep)
+{
+    app::Scene scene;
+    app::History history(scene);
+    EXPECT_FALSE(history.can_undo());
+    for (int i = 0; i < 20; ++i) {
+        scene.wounds[0].roll_deg += 1;
+        history.edit(scene, "turn wound 1");
+    }
+    history.settle();
+    scene.wounds[0].roll_deg += 1;
+    history.edit(scene, "turn wound 1");
+    scene.exposure_stops = 1;
+    history.edit(scene, "exposure");
+    history.edit(scene, "exposure");
+    EXPECT_EQ(history.undo().exposure_stops, 0);
+    EXPECT_EQ(history.undo().wounds[0].roll_deg, 20);
+    EXPECT_EQ(history.undo(), app::Scene{});
+    EXPECT_EQ(history.undo(), app::Scene{}) << "there is nothing before";
+    EXPECT_EQ(history.redo().wounds[0].roll_deg, 20);
+    scene = history.now();
+    scene.tissue = "dark";
+    history.edit(scene, "tissue");
+    EXPECT_FALSE(history.can_redo()) << "what was undone is dropped";
+    EXPECT_EQ(history.undo().wounds[0].roll_deg, 20);
+}
+
+TEST_F(EditTest, TwoSettingsStandSideBySide)
+{
+    const app::Scene scene = small::scene(small::head());
+    app::Scene other = scene;
+    app::make_published(other);
+    app::Stage left(gpu::device(), scene, app::Stage::prepare(scene));
+    app::Stage right = left;
+    right.update(other);
+    right.settle();
+    engine::Executor executor(gpu::device(), gpu::shaders());
+    const auto single = [&](app::Stage& stage, double day) {
+        engine::Graph graph;
+        graph.readback("picture", stage.declare(graph, day, scene.size).picture);
+        return executor.run(graph).mat({0}).clone();
+    };
+    const auto both = [&](double divider) {
+        engine::Graph graph;
+        graph.readback("picture", app::declare_split(graph, left, 3, right, 9, scene.size, divider));
+        return executor.run(graph);
+    };
+    const cv::Mat first = single(left, 3), second = single(right, 9);
+    ASSERT_GT(cv::norm(first, second, cv::NORM_INF), 30);
+    EXPECT_THAT(ran(both(.25)),
+                testing::AllOf(Contains("forward"), Contains("right forward"), Contains("split")));
+    for (const double divider : {0., .25, .6, 1.}) {
+        const engine::FrameResult frame = both(divider);
+        if (divider != .25)
+            EXPECT_THAT(ran(frame), UnorderedElementsAre("split")) << "nothing else has changed";
+        const int border = cvRound(divider * first.cols);
+        const cv::Range before(0, border), after(border, first.cols);
+        EXPECT_EQ(border == 0 ? 0 : cv::norm(frame.mat({0}).colRange(before), first.colRange(before)), 0);
+        EXPECT_EQ(border == first.cols ? 0 : cv::norm(frame.mat({0}).colRange(after), second.colRange(after)),
+                  0);
+    }
+}
+
+TEST(SavedScene, ReadsBackEqual)
+{
+    const TemporaryFolder folder;
+    app::Scene scene;
+    scene.head = folder / "heads" / "a.glb";
+    scene.tissue = (folder / "tissue.json").string();
+    app::make_published(scene);
+    scene.tissue = "medium";
+    scene.wounds[0].photo = "/elsewhere/photo.png";
+    scene.wounds[0].segmentation.rect = cv::Rect(1, 2, 30, 40);
+    scene.wounds[0].place = glm::dvec3(.1, 1. / 3, -.02);
+    scene.wounds[0].healing.curve.delta = .1234567890123;
+    scene.wounds.push_back({});
+    scene.wounds[1].photo = folder / "b.png";
+    scene.wounds[1].mask = folder / "mask.png";
+    scene.wounds[1].place = passes::FacePoint{.1, -.2};
+    scene.camera.target_m = {.01, -.02, 0};
+    scene.views = {{"near", scene.camera}, {"left", std::nullopt}};
+    scene.shading.ambient = glm::vec3(.1f, .2f, .3f);
+    scene.days = {0, .5, 400};
+    scene.samples = 4;
+    const std::filesystem::path file = folder / "saved.json";
+    app::save_scene(file, scene);
+    EXPECT_EQ(app::read_scene(file), scene);
+    app::save_scene(file, app::Scene{});
+    EXPECT_EQ(app::read_scene(file), app::Scene{});
+}
