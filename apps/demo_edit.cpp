@@ -142,20 +142,4 @@ WoundScene next_wound(const Scene& scene)
     return wound;
 }
 
-Scene with_absolute_paths(Scene scene)
-{
-    const auto absolute = [](std::filesystem::path& path) {
-        if (!path.empty())
-            path = std::filesystem::absolute(path);
-    };
-    absolute(scene.head);
-    for (WoundScene& wound : scene.wounds) {
-        absolute(wound.photo);
-        absolute(wound.mask);
-    }
-    if (std::filesystem::path(scene.tissue).extension() == ".json")
-        scene.tissue = std::filesystem::absolute(scene.tissue).string();
-    return scene;
-}
-
 } // namespace app

@@ -46,7 +46,7 @@ double dragged_width_mm(const passes::Anchor& anchor, const Sight& sight, const 
 double dragged_roll_deg(const passes::Anchor& anchor, const Sight& sight, const glm::dvec2& pointer,
                         double roll_deg);
 
-/// Turns a place around the face: degrees to the right and up; stays within what a scene allows.
+/// Turns a light around the face; stays within what a scene allows.
 void turn(Direction& from, double right_deg, double up_deg);
 
 /// Whether the scene is all as the paper prints it.
@@ -57,8 +57,5 @@ void set_published(Scene& scene, bool published, const Scene& mended);
 
 /// A default wound unlike those there are; the caller places it.
 WoundScene next_wound(const Scene& scene);
-
-/// Paths made absolute, so that the scene can be saved anywhere.
-Scene with_absolute_paths(Scene scene);
 
 } // namespace app

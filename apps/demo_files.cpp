@@ -5,7 +5,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "apps/demo_window.hpp"
-#include "apps/output.hpp"
 #include "engine/image_io.hpp"
 #include "wound/input_error.hpp"
 
@@ -57,7 +56,7 @@ void DemoWindow::apply_edits()
     // A step of undo is what the user did without letting go. Where the camera stands is none.
     const bool busy = state_.moving || ImGui::IsAnyItemActive();
     if (!busy && as_seen_in(state_.scene, history_.now()) != history_.now())
-        history_.add(state_.scene);
+        history_.edit(state_.scene, "");
 }
 
 void DemoWindow::show_scene()
@@ -91,7 +90,7 @@ void DemoWindow::match_comparison()
         return;
     }
     if (!compared_)
-        compared_ = *stage_;
+        compared_.emplace(*stage_);
     const Scene wanted = compared_scene();
     if (compared_->scene() != wanted)
         compared_->update(wanted);
@@ -131,6 +130,12 @@ void DemoWindow::grant_wishes()
         open_photo(state_.scene.wounds.at(*wound).photo, wound);
     if (std::exchange(wishes.use_photo, false))
         use_photo();
+}
+
+std::optional<glm::dvec3> DemoWindow::place_at(const glm::dvec2& at) const
+{
+    return stage_->pick(stage_->camera(), 2 * at.x - 1, 2 * at.y - 1,
+                        double(state_.view.width) / state_.view.height);
 }
 
 void DemoWindow::put_wound(const glm::dvec2& at)
@@ -241,7 +246,7 @@ void DemoWindow::save_scene(std::filesystem::path file)
     if (file.extension().empty())
         file += ".json";
     attempt([&] {
-        write_json(file, to_json(with_absolute_paths(state_.scene)));
+        app::save_scene(file, state_.scene);
         state_.scene_file = file;
         state_.notices.say(fmt::format("Saved {}", file.string()), now_s());
     });
@@ -254,7 +259,7 @@ void DemoWindow::save_picture(std::filesystem::path file)
     attempt([&] {
         DrawOptions options;
         options.size = {std::uint32_t(state_.entries.size[0]), std::uint32_t(state_.entries.size[1])};
-        shown_ = {}; // the executor makes room for the other size
+        picture_ = VK_NULL_HANDLE; // the executor makes room for the other size
         const Drawing drawing = draw(
             *renderer_, *stage_, {state_.playback.day, "", stage_->camera(), file.stem().string()}, options);
         engine::write_png(file, cv::Mat3b(drawing.picture));

@@ -6,29 +6,25 @@
 
 #include "apps/demo_ui.hpp"
 #include "wound/healing.hpp"
+#include "wound/timeline.hpp"
 
 namespace app {
 namespace {
 
-struct PhaseName
+/// From fresh blood to the pale scar.
+ImU32 color_of(std::size_t phase, std::size_t count)
 {
-    double from, to; // days
-    const char* name;
-    ImU32 color;
-};
+    constexpr std::array<ImU32, 5> course{IM_COL32(112, 32, 32, 255), IM_COL32(150, 74, 44, 255),
+                                          IM_COL32(164, 60, 62, 255), IM_COL32(176, 92, 92, 255),
+                                          IM_COL32(150, 112, 108, 255)};
+    return count < 2 ? course[2] : course[phase + 1 == count ? 4 : std::min<std::size_t>(phase, 3)];
+}
 
-/// After Singer & Clark 1999; the bed's colours follow the same course (wound/phases.hpp), which stretches
-/// with the time to closure.
-std::vector<PhaseName> phases_of(const TimelineAxis& axis)
+const wound::Healing& shown_healing(const DemoState& state)
 {
-    const double closure = axis.closure_day(), end = axis.last_day();
-    if (!std::isfinite(closure) || closure >= end)
-        return {{0, end, "open wound", IM_COL32(134, 50, 46, 255)}};
-    const double early = std::min(2.5, .1 * closure), inflamed = std::min(5.0, .3 * closure);
-    return {{0, early, "clot", IM_COL32(112, 32, 32, 255)},
-            {early, inflamed, "inflammation", IM_COL32(150, 74, 44, 255)},
-            {inflamed, closure, "granulation, new skin", IM_COL32(164, 70, 72, 255)},
-            {closure, end, "scar", IM_COL32(150, 112, 108, 255)}};
+    static const wound::Healing none;
+    const std::vector<WoundScene>& wounds = state.scene.wounds;
+    return wounds.empty() ? none : wounds[std::min(state.selected.value_or(0), wounds.size() - 1)].healing;
 }
 
 /// On its stretch if it fits there.
@@ -45,9 +41,16 @@ void draw_track(DemoState& state, ImVec2 corner, float width, float height)
     Playback& playback = state.playback;
     const auto x_of = [&](double day) { return corner.x + float(playback.axis.fraction_of(day)) * width; };
     const float bottom = corner.y + height, text = ImGui::GetTextLineHeight();
-    for (const PhaseName& phase : phases_of(playback.axis)) {
-        list.AddRectFilled({x_of(phase.from), corner.y}, {x_of(phase.to), bottom}, phase.color);
-        name_phase(list, phase.name, x_of(phase.from), x_of(phase.to), corner.y + (height - text) / 2);
+    const std::vector<wound::TimelinePhase> phases =
+        wound::timeline(shown_healing(state), playback.axis.last_day(), 2).phases;
+    list.AddRectFilled(corner, {corner.x + width, bottom}, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    for (std::size_t i = 0; i < phases.size() && !state.scene.wounds.empty(); ++i) {
+        const float left = x_of(phases[i].first_day), right = x_of(phases[i].last_day);
+        list.AddRectFilled({left, corner.y}, {right, bottom}, color_of(i, phases.size()));
+        name_phase(list, phases[i].name, left, right, corner.y + (height - text) / 2);
+        if (ImGui::IsItemHovered() && ImGui::IsMouseHoveringRect({left, corner.y}, {right, bottom}))
+            ImGui::SetTooltip("%s, day %.0f to %.0f", phases[i].name, phases[i].first_day,
+                              phases[i].last_day);
     }
     const auto room = std::size_t(std::max(4.0f, width / (52 * state.scale)));
     float free = corner.x - 1e3f;
@@ -79,11 +82,8 @@ std::string day_text(const DemoState& state)
     std::string text = fmt::format("day {:.1f}", day);
     if (day >= closure)
         text += fmt::format("   scar, {:.1f} months", (day - closure) / 30.4);
-    else if (!state.scene.wounds.empty()) {
-        const std::size_t wound = std::min(state.selected.value_or(0), state.scene.wounds.size() - 1);
-        text += fmt::format("   {:.0f} % open",
-                            100 * wound::unhealed_ratio(state.scene.wounds[wound].healing.curve, day));
-    }
+    else if (!state.scene.wounds.empty())
+        text += fmt::format("   {:.0f} % open", 100 * wound::unhealed_ratio(shown_healing(state).curve, day));
     return text;
 }
 

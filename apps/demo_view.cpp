@@ -2,6 +2,7 @@
 #include <cmath>
 #include <imgui.h>
 
+#include "apps/camera_moves.hpp"
 #include "apps/demo_ui.hpp"
 
 namespace app {
@@ -96,14 +97,12 @@ Drag left_drag(DemoState& state, const glm::dvec2& at)
     return Drag::Turn;
 }
 
-void pan(CameraScene& camera, const DemoState& state, const ImVec2& by);
-
 void drag_on(DemoState& state, const glm::dvec2& at)
 {
     const ImVec2 by = ImGui::GetIO().MouseDelta;
     state.mouse.travelled += std::abs(by.x) + std::abs(by.y);
     const bool moved = state.mouse.travelled > 4 * state.scale;
-    const double degrees = 180.0 / std::max(state.view.height, 1.0f);
+    const double height = std::max(state.view.height, 1.0f), degrees = 180 / height;
     const passes::Anchor* anchor = selected_anchor(state);
     WoundScene* wound = anchor && *state.selected < state.scene.wounds.size()
                             ? &state.scene.wounds[*state.selected]
@@ -112,10 +111,11 @@ void drag_on(DemoState& state, const glm::dvec2& at)
         return;
     switch (state.mouse.drag) {
     case Drag::Turn:
-        turn(state.scene.camera.from, -by.x * degrees, by.y * degrees);
+        state.scene.camera = orbit(state.scene.camera, -by.x * degrees, by.y * degrees);
         break;
     case Drag::Pan:
-        pan(state.scene.camera, state, by);
+        state.scene.camera =
+            pan(state.scene.camera, by.x / height, by.y / height, state.stage.camera_distance_m);
         break;
     case Drag::Light:
         if (!state.scene.lights.empty())
@@ -140,22 +140,6 @@ void drag_on(DemoState& state, const glm::dvec2& at)
     }
 }
 
-/// Moves the camera's aim so that the head follows the pointer.
-void pan(CameraScene& camera, const DemoState& state, const ImVec2& by)
-{
-    const double metres = 2 * state.stage.camera_distance_m * std::tan(glm::radians(camera.fov_deg) / 2) /
-                          std::max(state.view.height, 1.0f);
-    camera.pan_m[0] = std::clamp(camera.pan_m[0] - by.x * metres, -1.0, 1.0);
-    camera.pan_m[1] = std::clamp(camera.pan_m[1] + by.y * metres, -1.0, 1.0);
-}
-
-void zoom(DemoState& state, float wheel)
-{
-    CameraScene& camera = state.scene.camera;
-    const double distance = camera.distance_m > 0 ? camera.distance_m : state.stage.camera_distance_m;
-    camera.distance_m = std::clamp(distance * std::pow(.88, double(wheel)), .12, 10.0);
-}
-
 void use_mouse(DemoState& state)
 {
     const glm::dvec2 at = pointer(state);
@@ -173,7 +157,8 @@ void use_mouse(DemoState& state)
         state.mouse = {};
     }
     if (ImGui::IsItemHovered() && ImGui::GetIO().MouseWheel != 0)
-        zoom(state, ImGui::GetIO().MouseWheel);
+        state.scene.camera = zoom(state.scene.camera, std::pow(1.14, double(ImGui::GetIO().MouseWheel)),
+                                  state.stage.camera_distance_m);
 }
 
 void draw_sun(const DemoState& state, ImDrawList& list)

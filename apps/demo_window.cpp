@@ -123,7 +123,7 @@ void DemoWindow::finish_loading()
     stage_ = std::make_unique<Stage>(renderer_->device, state_.scene, loading_.get());
     state_.loading = false;
     state_.mended = is_published(state_.scene) ? Scene{} : state_.scene;
-    history_ = History<Scene>(state_.scene);
+    history_ = History(state_.scene);
     for (const std::string& note : stage_->notes())
         state_.notices.say(note, now_s());
 }
@@ -141,7 +141,7 @@ void DemoWindow::tell_facts()
     if (width > 0 && height > 0)
         facts.sight = Sight(stage_->view(camera, std::array<std::uint32_t, 2>{width, height}));
     facts.head_middle = stage_->head_middle();
-    facts.camera_distance_m = glm::length(camera.eye - camera.target);
+    facts.camera_distance_m = stage_->distance(stage_->scene().camera);
     facts.pending = stage_->pending() || (compared_ && compared_->pending());
     state_.can_undo = history_.can_undo();
     state_.can_redo = history_.can_redo();
@@ -177,24 +177,19 @@ bool DemoWindow::draw_picture(double scale)
     const std::array<std::uint32_t, 2> size{std::max(16u, std::uint32_t(std::lround(full[0] * scale))),
                                             std::max(16u, std::uint32_t(std::lround(full[1] * scale)))};
     engine::Graph graph;
-    const auto declare = [&](Stage& stage, double day) {
-        const engine::ImageId picture = stage.declare(graph, day, size).picture;
-        graph.present(picture);
-        return graph.images[picture.index].name;
-    };
-    const std::string left = declare(*stage_, state_.playback.day);
-    std::string right;
-    if (compared_) {
-        graph.prefix("right ");
-        right = declare(*compared_, state_.compare == Compare::Day0 ? 0 : state_.playback.day);
-    }
-    if (renderer_->executor.up_to_date(graph) && shown_.left != VK_NULL_HANDLE)
+    const double day = state_.playback.day;
+    const engine::ImageId picture =
+        compared_ ? declare_split(graph, *stage_, day, *compared_, state_.compare == Compare::Day0 ? 0 : day,
+                                  size, state_.divider)
+                  : stage_->declare(graph, day, size).picture;
+    graph.present(picture);
+    if (picture_ != VK_NULL_HANDLE && renderer_->executor.up_to_date(graph))
         return false;
     if (scale == 1 && quality_.scale(now_s()) < 1)
         return false; // not now: something moves
     const engine::FrameResult result = renderer_->executor.run(graph);
-    shown_ = {renderer_->executor.presented(left),
-              right.empty() ? VK_NULL_HANDLE : renderer_->executor.presented(right), size};
+    picture_ = renderer_->executor.presented(graph.images[picture.index].name);
+    picture_size_ = size;
     quality_.rendered(scale, result.frame_ms);
     state_.passes = result.passes;
     state_.frame_ms = result.frame_ms;
@@ -207,20 +202,15 @@ bool DemoWindow::draw_picture(double scale)
 engine::WindowFrame DemoWindow::frame(const ImDrawData* ui) const
 {
     engine::WindowFrame frame{{}, {.07f, .07f, .08f, 1}, ui};
-    if (shown_.left == VK_NULL_HANDLE)
+    if (picture_ == VK_NULL_HANDLE)
         return frame;
     const float pixels = ui_->pixels_per_unit();
     const auto left = std::int32_t(std::lround(state_.view.left * pixels)),
                top = std::int32_t(std::lround(state_.view.top * pixels));
     const auto [width, height] = view_pixels();
-    const auto w = std::int32_t(shown_.size[0]), h = std::int32_t(shown_.size[1]);
-    const engine::Box to{left, top, left + std::int32_t(width), top + std::int32_t(height)};
-    frame.pictures.push_back({shown_.left, {0, 0, w, h}, to});
-    if (shown_.right != VK_NULL_HANDLE) {
-        const auto cut = std::int32_t(std::lround(state_.divider * w));
-        const auto cut_to = left + std::int32_t(std::lround(state_.divider * width));
-        frame.pictures.push_back({shown_.right, {cut, 0, w, h}, {cut_to, to.top, to.right, to.bottom}});
-    }
+    frame.pictures.push_back({picture_,
+                              {0, 0, std::int32_t(picture_size_[0]), std::int32_t(picture_size_[1])},
+                              {left, top, left + std::int32_t(width), top + std::int32_t(height)}});
     return frame;
 }
 

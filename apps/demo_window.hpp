@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "apps/demo_events.hpp"
-#include "apps/demo_history.hpp"
 #include "apps/demo_ui.hpp"
+#include "apps/history.hpp"
 #include "apps/renderer.hpp"
 #include "apps/scene_options.hpp"
 #include "apps/stage.hpp"
@@ -56,6 +56,7 @@ class DemoWindow
     Scene compared_scene() const;
     void grant_wishes();
     void grant_edits();
+    std::optional<glm::dvec3> place_at(const glm::dvec2& at) const; // on the skin; 0..1 of the view
     void put_wound(const glm::dvec2& at);
     void move_wound(const glm::dvec2& to);
     void go_to(const Scene& scene);
@@ -81,13 +82,10 @@ class DemoWindow
     std::future<Stage::Props> loading_;
     std::unique_ptr<Stage> stage_;
     std::optional<Stage> compared_; // right of the divider
-    History<Scene> history_{Scene{}};
+    History history_{Scene{}};
     Quality quality_;
-    struct Shown
-    {
-        VkImage left = VK_NULL_HANDLE, right = VK_NULL_HANDLE;
-        std::array<std::uint32_t, 2> size{};
-    } shown_;
+    VkImage picture_ = VK_NULL_HANDLE;
+    std::array<std::uint32_t, 2> picture_size_{};
     int settle_ = 2; // steps that ImGui still needs to come to rest after an event
     bool on_screen_ = false, told_idle_ = false;
     double last_step_ = 0;
