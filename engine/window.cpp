@@ -98,6 +98,16 @@ void Window::install_callbacks()
     glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { self(w).damaged = true; });
     glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { self(w).damaged = true; });
     glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { self(w).damaged = true; });
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+        if (action == GLFW_RELEASE)
+            return;
+        // A letter by what it writes, not by its place: Ctrl+Z is where the user's keyboard has its Z.
+        const char* name = glfwGetKeyName(key, scancode);
+        if (name && name[0] >= 'a' && name[0] <= 'z' && name[1] == 0)
+            key = name[0] - 'a' + GLFW_KEY_A;
+        self(w).keys.push_back(
+            {key, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_ALT) != 0});
+    });
     glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
         for (int i = 0; i < count; ++i)
             self(w).dropped.emplace_back(paths[i]);
@@ -181,6 +191,11 @@ void Window::wake()
 bool Window::take_damaged()
 {
     return std::exchange(damaged, false);
+}
+
+std::vector<KeyPress> Window::take_keys()
+{
+    return std::exchange(keys, {});
 }
 
 std::vector<std::filesystem::path> Window::take_dropped()

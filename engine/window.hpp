@@ -17,6 +17,12 @@ struct GLFWwindow;
 
 namespace engine {
 
+struct KeyPress
+{
+    int key = 0; // GLFW_KEY_..., a place on a US keyboard; of a letter, what it writes
+    bool control = false, shift = false, alt = false;
+};
+
 class Window
 {
   public:
@@ -52,6 +58,8 @@ class Window
     /// Whether what the window shows must be drawn anew: its size changed, or another window no longer hides
     /// it. Asking clears it.
     bool take_damaged();
+    /// Keys pressed or repeated since the last call, in order. None is lost, however long a frame takes.
+    std::vector<KeyPress> take_keys();
     /// Files dropped on the window since the last call.
     std::vector<std::filesystem::path> take_dropped();
 
@@ -63,6 +71,7 @@ class Window
 
     GLFWwindow* window = nullptr;
     bool damaged = true;
+    std::vector<KeyPress> keys;
     std::vector<std::filesystem::path> dropped;
 };
 
