@@ -22,11 +22,6 @@ MeasuredCase variant(const char* name, const Stage& stage, const passes::Shading
             }};
 }
 
-double median(const std::vector<double>& samples)
-{
-    return spread_of(samples).value().median;
-}
-
 } // namespace
 
 json measure_cost(const engine::Device& device, const engine::ShaderLibrary& library, const Stage& stage,

@@ -242,16 +242,18 @@ Steps tables(const Scene& scene)
                 .declaring = "the rows' tissue, on the CPU",
                 .whole_frame = false};
     for (std::uint32_t side = 8; side <= 512; side *= 2) {
-        steps.x.push_back(double(side) * side);
-        steps.cases.push_back({"", "",
-                               [=, rung = scene.reflectance_model](engine::Graph& graph, double) {
-                                   const passes::LutTissue rows = passes::lut_tissue(
-                                       passes::lut_rows(tissue, healing, side, last_day).open, last_day);
-                                   const passes::ReflectanceLut lut = passes::add_reflectance_lut(
-                                       graph, "reflectance_lut", rows, rung, side);
-                                   graph.readback("table", lut.reflectance);
-                               },
-                               [] {}, true});
+        steps.x.push_back(2.0 * side * side); // open and covered
+        steps.cases.push_back(
+            {"", "",
+             [=, rung = std::min(scene.reflectance_model, wound::Rung::Calibrated)](engine::Graph& graph,
+                                                                                    double) {
+                 const passes::LutTissue rows =
+                     passes::lut_tissue(passes::lut_rows(tissue, healing, side, last_day).days, last_day);
+                 const passes::ReflectanceLut lut =
+                     passes::add_reflectance_lut(graph, "reflectance_lut", rows, rung, side);
+                 graph.readback("table", lut.reflectance);
+             },
+             [] {}, true});
     }
     return steps;
 }

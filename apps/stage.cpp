@@ -291,11 +291,6 @@ cv::Mat1f Stage::surface_mm2(std::size_t wound) const
     return maps.region.empty() ? all : all(maps.region).clone();
 }
 
-const wound::Healing& Stage::healing(std::size_t wound) const
-{
-    return scene_.wounds[props_.scene_wounds[wound]].healing;
-}
-
 std::vector<wound::WoundDay> Stage::wounds_on(double day) const
 {
     std::vector<wound::WoundDay> wounds;

@@ -45,12 +45,12 @@ double student_quantile(double p, double degrees)
            (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * degrees * degrees * degrees);
 }
 
+} // namespace
+
 double median(std::span<const double> samples)
 {
     return quantile({samples.begin(), samples.end()}, 0.5);
 }
-
-} // namespace
 
 double quantile(std::vector<double> samples, double q)
 {

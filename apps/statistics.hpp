@@ -7,6 +7,9 @@
 
 namespace app {
 
+/// Of at least one sample.
+double median(std::span<const double> samples);
+
 /// Linear between order statistics; `q` from 0 to 1. There must be a sample.
 double quantile(std::vector<double> samples, double q);
 

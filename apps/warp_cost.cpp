@@ -3,8 +3,8 @@
 #include <array>
 #include <fmt/format.h>
 
-#include "apps/cost.hpp"
 #include "apps/progress.hpp"
+#include "apps/statistics.hpp"
 #include "wound/drawn_region.hpp"
 #include "wound/prepare.hpp"
 #include "wound/skin_match.hpp"

@@ -85,7 +85,7 @@ PhaseDays phase_days(double closure_day)
                                                        (closing_days - early_days);
     };
     return {day_of(fibrin_course.front().day), day_of(granulation_course.front().day),
-            day_of(pink_course.front().day)};
+            day_of(early_days)}; // with the end of inflammation, new epithelium grows
 }
 
 double bed_luminance(const Patch& patch)
