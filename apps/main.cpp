@@ -7,6 +7,7 @@
 
 #include "apps/bake.hpp"
 #include "apps/bake_head.hpp"
+#include "apps/batch.hpp"
 #include "apps/capture.hpp"
 #include "apps/demo.hpp"
 #include "apps/graph_command.hpp"
@@ -54,6 +55,7 @@ int main(int argc, char** argv)
     try {
         app::add_demo_command(program);
         app::add_capture_command(program);
+        app::add_batch_command(program);
         app::add_graph_command(program);
         app::add_info_command(program);
         app::add_wound_command(program);

@@ -153,6 +153,8 @@ std::vector<double> read_days(const json& value, const std::string& where)
 {
     if (value.is_string())
         return parse_days(value.get<std::string>(), where);
+    if (value.is_number())
+        return parse_days(value.dump(), where);
     if (!value.is_array() || value.empty())
         throw cicatrix::InputError(where, "is " + value.dump(), "write \"0:30:3\" or an array of days");
     std::string text;
@@ -252,8 +254,12 @@ json to_json(const Scene& scene)
 
 Scene read_scene(const std::filesystem::path& path)
 {
-    const json root = read_json(path);
-    const std::string file = path.string() + ": ";
+    return scene_of(read_json(path), path, path.string());
+}
+
+Scene scene_of(const json& root, const std::filesystem::path& path, const std::string& where)
+{
+    const std::string file = where + ": ";
     Fields fields(root, file);
     Scene scene;
     scene.head = beside(path, fields.text("head", ""));
