@@ -74,7 +74,10 @@ void add_capture_command(CLI::App& program)
     for (const auto& [name, shows] : standard_views())
         views += fmt::format(" {} ({}),", name, shows);
     views.pop_back();
-    command->add_option("--views", options->capture.views, views)->delimiter(',')->type_name("NAMES");
+    command->add_option("--views", options->capture.views, views)
+        ->delimiter(',')
+        ->allow_extra_args(false) // what follows may be the scene
+        ->type_name("NAMES");
     command
         ->add_option("--orbit", options->capture.orbit,
                      "So many pictures around the head instead of one per day; the day moves from the first "
@@ -82,6 +85,7 @@ void add_capture_command(CLI::App& program)
         ->check(CLI::Range(1, 10000))
         ->type_name("N");
     command->add_option("--orbit-degrees", options->capture.orbit_deg, "How far around")
+        ->type_name("DEGREES")
         ->check(CLI::Range(-3600.0, 3600.0))
         ->capture_default_str();
     command
@@ -90,10 +94,12 @@ void add_capture_command(CLI::App& program)
             "A film as well, the day moving evenly from the first to the last of --days; with --orbit "
             "the camera goes around. Needs the program ffmpeg")
         ->type_name("FILE.mp4");
-    command->add_option("--duration", options->capture.duration_s, "Of the film, in seconds")
+    command->add_option("--duration", options->capture.duration_s, "Of the film")
+        ->type_name("SECONDS")
         ->check(CLI::Range(0.01, 3600.0))
         ->capture_default_str();
     command->add_option("--fps", options->capture.fps, "Its frames per second")
+        ->type_name("N")
         ->check(CLI::Range(1.0, 240.0))
         ->capture_default_str();
     command->add_flag("--transparent", options->capture.transparent,
