@@ -80,7 +80,7 @@ cv::Mat3b draw_sweep(const Sweep& sweep, const std::string& device)
             y.low = std::min(y.low, std::max(series.ms[i].p5, 1e-4) / 1.2);
             y.high = std::max(y.high, series.ms[i].p95 * 1.2);
         }
-    constexpr int chart = 560, width = 960, height = 440, legend_row = 40;
+    constexpr int chart = 470, width = 800, height = 380, legend_row = 36;
     cv::Mat3b picture(height, width, cv::Vec3b(255, 255, 255));
     wound::Plot plot(picture, {0, 0, chart, height}, x, y, fmt::format("ms against {}", sweep.x_label),
                      sweep.x_label);
