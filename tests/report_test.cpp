@@ -346,7 +346,7 @@ TEST_F(Report, SweepsEveryKind)
         }
         EXPECT_THAT(app::to_text(sweep), testing::AllOf(HasSubstr("x^("), HasSubstr("fixed: ")));
         EXPECT_EQ(app::to_json(sweep).at("series").size(), sweep.series.size());
-        const cv::Mat3b plot = app::draw_sweep(sweep, "device");
+        const cv::Mat3b plot = app::draw_sweep(sweep, gpu::device().info());
         int colored = 0;
         for (const cv::Vec3b& pixel : plot)
             colored += std::abs(pixel[0] - pixel[1]) > 40 || std::abs(pixel[1] - pixel[2]) > 40;
