@@ -135,7 +135,7 @@ void sweep(const ReportOptions& options, const Scene& scene, const engine::Devic
             measure_sweep(kind, scene, device, library, rounds, rounds_of(progress, kind, rounds));
         progress.clear();
         engine::write_png(options.out / fmt::format("sweep_{}.png", kind),
-                          draw_sweep(measured, device_title(device.info())));
+                          draw_sweep(measured, device.info()));
         record.push_back(to_json(measured));
         fmt::print("{}\n", to_text(measured));
     }

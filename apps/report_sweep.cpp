@@ -195,8 +195,9 @@ Steps points(const Scene& scene, const engine::Device& device, const Rounds& rou
     auto maps = std::make_shared<passes::WoundMaps>(passes::upload_wound(device, first.patch));
     Steps steps{.x_label = "control points",
                 .fixed = fmt::format(
-                    "the scene's first wound, {0}x{0} texels; points evenly along its border, beside "
-                    "the default warp; dense: the paper's thin plate in every texel",
+                    "the scene's first wound, {0}x{0} texels; points evenly along its border (the thin plate "
+                    "has fixed ones on the patch's frame, too). grid: the default warp; dense: the paper's "
+                    "thin plate in every texel",
                     first.patch.mask.cols),
                 .prefixes = {"grid: ", "dense: "},
                 .declaring = "the day's warps, on the CPU",

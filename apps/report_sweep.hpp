@@ -42,6 +42,6 @@ Sweep measure_sweep(const std::string& kind, const Scene& scene, const engine::D
 std::string to_text(const Sweep& sweep);
 nlohmann::json to_json(const Sweep& sweep);
 /// Both axes logarithmic, RGB.
-cv::Mat3b draw_sweep(const Sweep& sweep, const std::string& device);
+cv::Mat3b draw_sweep(const Sweep& sweep, const engine::DeviceInfo& device);
 
 } // namespace app

@@ -59,7 +59,7 @@ json to_json(const Sweep& sweep)
     return {{"kind", sweep.kind}, {"x_label", sweep.x_label}, {"fixed", sweep.fixed}, {"series", list}};
 }
 
-cv::Mat3b draw_sweep(const Sweep& sweep, const std::string& device)
+cv::Mat3b draw_sweep(const Sweep& sweep, const engine::DeviceInfo& device)
 {
     constexpr std::array<std::array<int, 3>, 9> colors{{{181, 71, 47},
                                                         {47, 111, 181},
@@ -80,12 +80,14 @@ cv::Mat3b draw_sweep(const Sweep& sweep, const std::string& device)
             y.low = std::min(y.low, std::max(series.ms[i].p5, 1e-4) / 1.2);
             y.high = std::max(y.high, series.ms[i].p95 * 1.2);
         }
-    constexpr int chart = 560, width = 960, height = 440, legend_row = 40;
+    constexpr int chart = 470, width = 800, height = 380, legend_row = 35;
     cv::Mat3b picture(height, width, cv::Vec3b(255, 255, 255));
     wound::Plot plot(picture, {0, 0, chart, height}, x, y, fmt::format("ms against {}", sweep.x_label),
                      sweep.x_label);
-    wound::draw_text(picture, device, {chart + 8, 22}, {90, 90, 90}, 0.9);
-    int line = 50;
+    wound::draw_text(picture, device.name, {chart + 8, 20}, {90, 90, 90}, 0.85);
+    if (device.software)
+        wound::draw_text(picture, "a software rasteriser", {chart + 8, 36}, {90, 90, 90}, 0.85);
+    int line = 60;
     for (std::size_t s = 0; s < sweep.series.size(); ++s) {
         const SweepSeries& series = sweep.series[s];
         const auto& rgb = colors[s % colors.size()];

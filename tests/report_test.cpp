@@ -79,12 +79,14 @@ struct Measured
     }
 };
 
+/// The passes that ran, and in how many frames.
 std::map<std::string, int> ran_counts(const app::CaseSummary& summary)
 {
     std::map<std::string, int> counts;
     for (const app::PassSummary& pass : summary.passes) {
         EXPECT_EQ(pass.ran + pass.skipped + pass.culled, few.timed) << pass.name;
-        counts[pass.name] = pass.ran;
+        if (pass.ran > 0)
+            counts[pass.name] = pass.ran;
     }
     return counts;
 }
@@ -97,8 +99,7 @@ TEST_F(Report, InEachCaseRunsWhatMoves)
 {
     const auto& summaries = Measured::once().summaries;
     ASSERT_EQ(summaries.size(), 4u);
-    std::map<std::string, int> still{{"forward", few.timed}, {"tonemap", few.timed}, {"shadow", 0},
-                                     {"wound_texture", 0},   {"wound_relief", 0},    {"reflectance_lut", 0}};
+    std::map<std::string, int> still{{"forward", few.timed}, {"tonemap", few.timed}};
     EXPECT_EQ(ran_counts(summaries[0]), still);
     EXPECT_EQ(ran_counts(summaries[1]), still);
     std::map<std::string, int> tissue = still;
@@ -345,7 +346,7 @@ TEST_F(Report, SweepsEveryKind)
         }
         EXPECT_THAT(app::to_text(sweep), testing::AllOf(HasSubstr("x^("), HasSubstr("fixed: ")));
         EXPECT_EQ(app::to_json(sweep).at("series").size(), sweep.series.size());
-        const cv::Mat3b plot = app::draw_sweep(sweep, "device");
+        const cv::Mat3b plot = app::draw_sweep(sweep, gpu::device().info());
         int colored = 0;
         for (const cv::Vec3b& pixel : plot)
             colored += std::abs(pixel[0] - pixel[1]) > 40 || std::abs(pixel[1] - pixel[2]) > 40;
