@@ -137,17 +137,22 @@ TEST(HealingTimeline, BedIsRedderThanTheRingAndTheRingThanSkin)
     }
 }
 
-TEST(HealingTimeline, TissueOfATableGetsARedRingAsWell)
+TEST(HealingTimeline, TissueOfATableGetsBloodInItsRingAsWell)
 {
     const SkinLayers table = table1();
     const Color intact = fast_color(table);
     EXPECT_LT(cv::norm(fast_color(layers_at(covered_bed(table, 9, 21), 0)) - intact), 1e-12);
     double before = 1e9;
     for (double day : {5., 20., 60., 200., 700.}) {
-        const double ring = redness(fast_color(layers_at(covered_bed(table, day, 21), 1)));
-        EXPECT_GT(ring, redness(intact)) << day;
-        EXPECT_LT(ring, before) << day;
-        before = ring;
+        const TissueDay ring = covered_bed(table, day, 21);
+        const auto blood = [&](std::size_t c) {
+            return ring.regrown.sigma_a[c] - table.layers[1].sigma_a[c];
+        };
+        EXPECT_GT(blood(1), 5 * blood(0)) << "green more than red, day " << day;
+        const double change = cv::norm(fast_color(layers_at(ring, 1)) - intact);
+        EXPECT_GT(change, .001) << day;
+        EXPECT_LT(change, before) << day;
+        before = change;
     }
     // Of one wavelength nobody knows how blood absorbs it.
     const SkinLayers grey{
