@@ -4,7 +4,6 @@
 #include "apps/capture.hpp"
 #include "apps/output.hpp"
 #include "apps/scene_options.hpp"
-#include "wound/input_error.hpp"
 
 namespace app {
 namespace {
@@ -15,13 +14,6 @@ struct CommandOptions : SceneOptions
     bool no_cost = false;
 };
 
-void check_tile(std::uint32_t tile)
-{
-    if (tile < 64 || tile > 16384 || tile % 2 != 0)
-        throw cicatrix::InputError("--tile", fmt::format("is {}", tile),
-                                   "give an even number of pixels from 64 to 16384");
-}
-
 void run_capture(CommandOptions& options)
 {
     const Scene scene = chosen_scene(options);
@@ -30,8 +22,10 @@ void run_capture(CommandOptions& options)
         options.capture.title = std::filesystem::path(options.scene).stem().string();
     if (options.mode == "published")
         options.capture.mode = options.mode;
-    check_tile(options.capture.tile);
+    check_capture(options.capture, scene);
     make_folder(options.capture.out);
+    if (options.capture.video.has_parent_path())
+        make_folder(options.capture.video.parent_path());
     auto props = std::async(std::launch::async, [&scene] { return Stage::prepare(scene); });
     Renderer renderer(device_options(options));
     const Stage stage(renderer.device, scene, props.get());
@@ -44,6 +38,8 @@ void run_capture(CommandOptions& options)
     progress.clear();
     fmt::print("{} pictures, healing.png and capture.json in {}\n", record["days"].size(),
                options.capture.out.string());
+    for (const nlohmann::json& film : record.value("films", nlohmann::json::array()))
+        fmt::print("{} frames in {}\n", film["frames"].size(), film["file"].get<std::string>());
     for (const std::string& line : lines)
         fmt::print("{}\n", line);
 }
@@ -66,6 +62,31 @@ void add_capture_command(CLI::App& program)
     views.pop_back();
     command->add_option("--views", options->capture.views, views)->delimiter(',')->type_name("NAMES");
     command
+        ->add_option("--orbit", options->capture.orbit,
+                     "So many pictures around the head instead of one per day; the day moves from the first "
+                     "to the last of --days meanwhile")
+        ->check(CLI::Range(1, 10000))
+        ->type_name("N");
+    command->add_option("--orbit-degrees", options->capture.orbit_deg, "How far around")
+        ->check(CLI::Range(-3600.0, 3600.0))
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--video", options->capture.video,
+            "A film as well, the day moving evenly from the first to the last of --days; with --orbit "
+            "the camera goes around. Needs the program ffmpeg")
+        ->type_name("FILE.mp4");
+    command->add_option("--duration", options->capture.duration_s, "Of the film, in seconds")
+        ->check(CLI::Range(0.01, 3600.0))
+        ->capture_default_str();
+    command->add_option("--fps", options->capture.fps, "Its frames per second")
+        ->check(CLI::Range(1.0, 240.0))
+        ->capture_default_str();
+    command->add_flag("--transparent", options->capture.transparent,
+                      "Nothing behind the head: PNG with straight alpha, EXR premultiplied");
+    command->add_flag("--exr", options->capture.exr,
+                      "Also each picture's linear light as OpenEXR, before exposure and encoding");
+    command
         ->add_option("--tile", options->capture.tile,
                      "Pictures with a longer side are drawn in tiles of at most so many pixels a side")
         ->capture_default_str()
@@ -73,7 +94,9 @@ void add_capture_command(CLI::App& program)
     command->add_flag("--no-cost", options->no_cost, "Leave out the cost measurement at the end");
     command->footer("Examples:\n"
                     "  cicatrix capture --days 0:30:3 --wound photo.jpg --mask mask.png --out healing\n"
-                    "  cicatrix capture --days 0,10 --views front,left,close-up");
+                    "  cicatrix capture --days 0:30:10 --views front,left,close-up\n"
+                    "  cicatrix capture --days 0,30 --video healing.mp4 --duration 10\n"
+                    "  cicatrix capture --days 5 --orbit 36 --transparent --size 800x800");
     command->callback([options] { run_capture(*options); });
 }
 

@@ -104,7 +104,7 @@ Drawing draw(Renderer& renderer, const Stage& stage, const Shot& shot, const Dra
         if (options.radiance)
             radiance = graph.readback("radiance", images.radiance);
         std::vector<engine::ReadbackId> states;
-        if (first)
+        if (first && options.areas)
             for (const passes::WoundTexture& wound : images.wounds)
                 states.push_back(graph.readback(fmt::format("state {}", states.size()), wound.state));
 

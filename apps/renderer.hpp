@@ -32,7 +32,8 @@ struct Shot
     double day = 0;
     std::string view; // the camera's name
     passes::Camera camera;
-    std::string name; // of its files, without extension: "day_005"
+    std::string name;    // of its files, without extension: "day_005"
+    double turn_deg = 0; // by which the view's camera has gone about the head
 };
 
 struct DrawOptions
@@ -40,6 +41,7 @@ struct DrawOptions
     std::array<std::uint32_t, 2> size{1280, 720};
     bool transparent = false;  // the picture is RGBA with straight alpha, the radiance premultiplied RGBA
     bool radiance = false;     // wanted
+    bool areas = true;         // bed_texels are wanted
     std::uint32_t tile = 2048; // pictures with a longer side are drawn in tiles; even
 };
 

@@ -29,21 +29,11 @@ constexpr std::array<StandardView, 7> around_the_head{{
     {"below", {0, -40}, "the face from below"},
 }};
 
-/// "close-up" is of wound 0, "close-up-2" of wound 1; none: the name is no close-up's.
-std::optional<std::size_t> close_up_of(const std::string& name)
-{
-    const std::string stem = "close-up";
-    if (name == stem)
-        return 0;
-    if (name.size() == stem.size() + 2 && name.starts_with(stem + "-") && name.back() >= '2' &&
-        name.back() <= '9')
-        return std::size_t(name.back() - '1');
-    return std::nullopt;
-}
-
 /// Turns a camera that looks at the face about the head's middle, so that the head stays in the picture.
 passes::Camera turned(const Stage& stage, const passes::Camera& camera, const Direction& by)
 {
+    if (by.azimuth_deg == 0 && by.elevation_deg == 0)
+        return camera;
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1), glm::radians(by.azimuth_deg), glm::dvec3(0, 1, 0)) *
                             glm::rotate(glm::dmat4(1), -glm::radians(by.elevation_deg), glm::dvec3(1, 0, 0));
     const glm::dvec3 middle = stage.head_middle();
@@ -53,35 +43,35 @@ passes::Camera turned(const Stage& stage, const passes::Camera& camera, const Di
     return {about(camera.eye), about(camera.target), camera.fov_deg};
 }
 
-std::optional<passes::Camera> standard_camera(const Stage& stage, const std::string& name)
+/// The names that can be asked for in this scene.
+std::vector<std::string> known_views(const Scene& scene)
+{
+    std::vector<std::string> known;
+    for (const ViewScene& view : scene.views)
+        if (view.camera)
+            known.push_back(view.name);
+    for (const auto& [name, shows] : standard_views())
+        known.push_back(name);
+    for (std::size_t wound = 2; wound <= scene.wounds.size(); ++wound)
+        known.push_back(fmt::format("close-up-{}", wound));
+    return known;
+}
+
+/// `name` is one of known_views().
+passes::Camera camera_of_view(const Stage& stage, const std::string& name)
 {
     const Scene& scene = stage.scene();
-    if (name == "camera")
-        return stage.camera();
-    if (const auto wound = close_up_of(name); wound && *wound < std::max<std::size_t>(1, scene.wounds.size()))
-        return stage.close_up(*wound);
+    for (const ViewScene& view : scene.views)
+        if (view.name == name && view.camera)
+            return stage.camera(*view.camera);
     for (const StandardView& view : around_the_head)
         if (view.name == name)
             return turned(stage, stage.camera({{0, 0}, scene.camera.distance_m, scene.camera.fov_deg}),
                           view.from);
-    return std::nullopt;
-}
-
-View find_view(const Stage& stage, const std::string& name, const std::string& where)
-{
-    for (const ViewScene& view : stage.scene().views)
-        if (view.name == name && view.camera)
-            return {name, stage.camera(*view.camera)};
-    if (const auto camera = standard_camera(stage, name))
-        return {name, *camera};
-    std::vector<std::string> known;
-    for (const ViewScene& view : stage.scene().views)
-        if (view.camera)
-            known.push_back(view.name);
-    for (const auto& [standard, shows] : standard_views())
-        known.push_back(standard);
-    throw cicatrix::InputError(where, "there is no view \"" + name + "\" in this scene",
-                               fmt::format("choose from {}", fmt::join(known, ", ")));
+    if (name == "camera")
+        return stage.camera();
+    const std::size_t wound = name == "close-up" ? 0 : std::size_t(name.back() - '1');
+    return stage.close_up(wound);
 }
 
 std::string day_text(double day)
@@ -101,18 +91,29 @@ std::vector<std::pair<std::string, std::string>> standard_views()
     return views;
 }
 
-std::vector<View> chosen_views(const Stage& stage, const std::vector<std::string>& names)
+std::vector<std::string> view_names(const Scene& scene, const std::vector<std::string>& chosen)
 {
-    const Scene& scene = stage.scene();
-    std::vector<View> views;
-    for (const std::string& name : names) {
-        if (std::ranges::find(views, name, &View::name) != views.end())
-            throw cicatrix::InputError("--views", "names \"" + name + "\" twice", "name each view once");
-        views.push_back(find_view(stage, name, "--views"));
-    }
-    if (names.empty())
+    std::vector<std::string> names = chosen;
+    if (chosen.empty())
         for (const ViewScene& view : scene.views)
-            views.push_back(find_view(stage, view.name, "scene: /views"));
+            names.push_back(view.name);
+    const std::string where = chosen.empty() ? "scene: /views" : "--views";
+    const std::vector<std::string> known = known_views(scene);
+    for (const std::string& name : names) {
+        if (std::ranges::count(names, name) > 1)
+            throw cicatrix::InputError(where, "names \"" + name + "\" twice", "name each view once");
+        if (std::ranges::find(known, name) == known.end())
+            throw cicatrix::InputError(where, "there is no view \"" + name + "\" in this scene",
+                                       fmt::format("choose from {}", fmt::join(known, ", ")));
+    }
+    return names;
+}
+
+std::vector<View> chosen_views(const Stage& stage, const std::vector<std::string>& chosen)
+{
+    std::vector<View> views;
+    for (const std::string& name : view_names(stage.scene(), chosen))
+        views.push_back({name, camera_of_view(stage, name)});
     if (views.empty())
         views.push_back({"", stage.camera()});
     return views;
@@ -128,6 +129,21 @@ std::vector<Shot> shots_of_days(const std::vector<double>& days, const std::vect
             shots.push_back({day, view.name, view.camera,
                              day_text(day) + (repetition > 1 ? fmt::format("_{}", repetition) : "") +
                                  (view.name.empty() ? "" : "_" + view.name)});
+    }
+    return shots;
+}
+
+std::vector<Shot> shots_of_sweep(const Stage& stage, const View& view, const Sweep& sweep)
+{
+    const bool closed = sweep.turn_deg != 0 && std::fmod(sweep.turn_deg, 360) == 0;
+    const double last = std::max<double>(1, double(sweep.count) - 1);
+    std::vector<Shot> shots;
+    for (std::size_t i = 0; i < sweep.count; ++i) {
+        const double turn = sweep.turn_deg * double(i) / (closed ? double(sweep.count) : last);
+        const double day = sweep.first_day + (sweep.last_day - sweep.first_day) * double(i) / last;
+        Shot& shot = shots.emplace_back(Shot{day, view.name, turned(stage, view.camera, {turn, 0})});
+        shot.name = fmt::format("{}_{:03}", sweep.stem, i) + (view.name.empty() ? "" : "_" + view.name);
+        shot.turn_deg = turn;
     }
     return shots;
 }

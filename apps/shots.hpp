@@ -20,13 +20,26 @@ struct View
 /// wound), close-up-2, ... With what each shows, for people.
 std::vector<std::pair<std::string, std::string>> standard_views();
 
-/// The views asked for by name, standard ones or the scene's own; without names, all of the scene's; when it
-/// has none, its camera alone, under an empty name. Throws cicatrix::InputError for a name that does not
-/// exist.
-std::vector<View> chosen_views(const Stage& stage, const std::vector<std::string>& names);
+/// The names of the views to show: the chosen ones, standard or the scene's own; none chosen: all that the
+/// scene lists. Throws cicatrix::InputError for a name that does not exist or comes twice.
+std::vector<std::string> view_names(const Scene& scene, const std::vector<std::string>& chosen);
+/// The same with their cameras; when there is none, the scene's camera under an empty name.
+std::vector<View> chosen_views(const Stage& stage, const std::vector<std::string>& chosen);
 
 /// One picture per day and view. day_005, day_005.5; the second of the same day is day_005_2; a view's name
 /// follows: day_005_front.
 std::vector<Shot> shots_of_days(const std::vector<double>& days, const std::vector<View>& views);
+
+/// Evenly spaced pictures over which the day moves from `first` to `last` while the camera goes `turn_deg`
+/// about the head, positive towards the viewer's right: what films and turntables are made of.
+struct Sweep
+{
+    double first_day = 0, last_day = 0;
+    double turn_deg = 0;   // the last picture stands at its end, or, after whole turns, one step before it
+    std::size_t count = 2; // at least 1
+    std::string stem = "frame";
+};
+/// Named STEM_000, STEM_001, ...; a view's name follows.
+std::vector<Shot> shots_of_sweep(const Stage& stage, const View& view, const Sweep& sweep);
 
 } // namespace app

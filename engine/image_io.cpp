@@ -28,6 +28,21 @@ void write_converted(const std::filesystem::path& path, const cv::Mat& picture,
     write_encoded(path, encode_png(converted));
 }
 
+// OpenCV keeps its OpenEXR codec locked (for fear of hostile files, which we do not read) until this is set.
+// Before main, for files are written by threads, and the environment is no thread's own.
+[[maybe_unused]] const int exr_unlocked = setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
+
+void write_exr_converted(const std::filesystem::path& path, const cv::Mat& picture,
+                         cv::ColorConversionCodes to_opencv, ExrDepth depth)
+{
+    cv::Mat converted;
+    cv::cvtColor(picture, converted, to_opencv);
+    const int type = depth == ExrDepth::Half ? cv::IMWRITE_EXR_TYPE_HALF : cv::IMWRITE_EXR_TYPE_FLOAT;
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(".exr", converted, bytes, {cv::IMWRITE_EXR_TYPE, type});
+    write_encoded(path, bytes);
+}
+
 } // namespace
 
 cv::Mat3b read_rgb(const std::filesystem::path& path)
@@ -70,16 +85,14 @@ void write_png(const std::filesystem::path& path, const cv::Mat1b& gray)
     write_encoded(path, encode_png(gray));
 }
 
-void write_exr(const std::filesystem::path& path, const cv::Mat3f& rgb)
+void write_exr(const std::filesystem::path& path, const cv::Mat3f& rgb, ExrDepth depth)
 {
-    // OpenCV keeps its OpenEXR codec locked (for fear of hostile files, which we do not read) until this is
-    // set.
-    setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
-    cv::Mat bgr;
-    cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-    std::vector<std::uint8_t> bytes;
-    cv::imencode(".exr", bgr, bytes, {cv::IMWRITE_EXR_TYPE, cv::IMWRITE_EXR_TYPE_FLOAT});
-    write_encoded(path, bytes);
+    write_exr_converted(path, rgb, cv::COLOR_RGB2BGR, depth);
+}
+
+void write_exr(const std::filesystem::path& path, const cv::Mat4f& rgba, ExrDepth depth)
+{
+    write_exr_converted(path, rgba, cv::COLOR_RGBA2BGRA, depth);
 }
 
 std::filesystem::path temporary_beside(const std::filesystem::path& path)

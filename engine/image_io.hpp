@@ -1,6 +1,7 @@
 // Pictures in and out of files. Reading checks size and format at the door; writing is atomic (temporary
 // name, then rename).
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <system_error>
@@ -18,8 +19,14 @@ cv::Mat1b read_mask(const std::filesystem::path& path);
 void write_png(const std::filesystem::path& path, const cv::Mat3b& rgb);
 void write_png(const std::filesystem::path& path, const cv::Mat4b& rgba);
 void write_png(const std::filesystem::path& path, const cv::Mat1b& gray);
-/// Linear light, 32-bit float.
-void write_exr(const std::filesystem::path& path, const cv::Mat3f& rgb);
+/// Linear light: RGB, or RGB premultiplied by alpha and alpha (the convention of OpenEXR).
+enum class ExrDepth : std::uint8_t
+{
+    Half,
+    Float,
+};
+void write_exr(const std::filesystem::path& path, const cv::Mat3f& rgb, ExrDepth depth = ExrDepth::Float);
+void write_exr(const std::filesystem::path& path, const cv::Mat4f& rgba, ExrDepth depth = ExrDepth::Float);
 
 /// The two halves of write_atomically that need no template.
 std::filesystem::path temporary_beside(const std::filesystem::path& path);

@@ -1,14 +1,22 @@
 // What `cicatrix capture` draws: tiles that join without a seam, views and cameras as numbers.
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "apps/camera_record.hpp"
+#include "apps/capture.hpp"
 #include "apps/renderer.hpp"
 #include "apps/shots.hpp"
-#include "engine/image_compare.hpp"
+#include "engine/image_io.hpp"
+#include "passes/tonemap.hpp"
 #include "tests/gpu.hpp"
 #include "tests/small_head.hpp"
+#include "tests/temporary_folder.hpp"
+#include "wound/color.hpp"
 #include "wound/input_error.hpp"
 
 namespace {
@@ -52,6 +60,49 @@ cv::Mat1b difference(const cv::Mat& a, const cv::Mat& b)
     return largest;
 }
 
+cv::Mat3b to_srgb8(const cv::Mat3f& linear)
+{
+    cv::Mat3b codes(linear.size());
+    for (int y = 0; y < linear.rows; ++y)
+        for (int x = 0; x < linear.cols; ++x)
+            codes(y, x) = wound::srgb8_from_linear(cv::Vec3d(linear(y, x)));
+    return codes;
+}
+
+/// A picture with straight alpha over a background, in linear light.
+cv::Mat3f composited(const cv::Mat4b& rgba, const std::function<cv::Vec3f(int y)>& background)
+{
+    cv::Mat3f result(rgba.size());
+    for (int y = 0; y < rgba.rows; ++y)
+        for (int x = 0; x < rgba.cols; ++x) {
+            const cv::Vec4b& pixel = rgba(y, x);
+            const cv::Vec3f color(wound::linear_from_srgb8({pixel[0], pixel[1], pixel[2]}));
+            const float alpha = pixel[3] / 255.0f;
+            result(y, x) = alpha * color + (1 - alpha) * background(y);
+        }
+    return result;
+}
+
+/// All frames of a film as RGB, by ffmpeg.
+std::vector<cv::Mat3b> decoded(const std::filesystem::path& film, cv::Size size)
+{
+    const TemporaryFolder folder;
+    const std::string raw = (folder / "frames").string();
+    const std::string command =
+        fmt::format("ffmpeg -loglevel error -nostdin -i '{}' -vf "
+                    "scale=in_color_matrix=bt709:flags=accurate_rnd+full_chroma_int -f "
+                    "rawvideo -pix_fmt rgb24 '{}'",
+                    film.string(), raw);
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    std::ifstream stream(raw, std::ios::binary);
+    std::vector<cv::Mat3b> frames;
+    for (cv::Mat3b frame(size);
+         stream.read(reinterpret_cast<char*>(frame.data), std::streamsize(frame.total() * 3));
+         frame = cv::Mat3b(size))
+        frames.push_back(frame);
+    return frames;
+}
+
 glm::dvec4 times(const json& rows, const glm::dvec4& v)
 {
     glm::dvec4 result(0);
@@ -88,8 +139,8 @@ TEST_F(Capture, TilesJoinWithoutASeam)
             app::Scene scene = small::scene(small::head());
             scene.samples = samples;
             const app::Stage on = stage(scene);
-            const app::DrawOptions whole{{301, 203}, transparent, true, 2048},
-                cut{{301, 203}, transparent, true, 64};
+            const app::DrawOptions whole{{301, 203}, transparent, true, true, 2048},
+                cut{{301, 203}, transparent, true, true, 64};
             ASSERT_EQ(app::canvases(cut).size(), 5u * 4u);
             const app::Drawing a = draw(on, on.camera(), whole), b = draw(on, on.camera(), cut);
             const cv::Mat1b differs = difference(a.picture, b.picture);
@@ -169,4 +220,162 @@ TEST_F(Capture, ViewsAreStandardOnesOrTheScenes)
         names.push_back(shot.name);
     EXPECT_THAT(names, testing::ElementsAre("day_000_steep", "day_000_close-up", "day_002.500_steep",
                                             "day_002.500_close-up", "day_000_2_steep", "day_000_2_close-up"));
+}
+
+// The picture that a transparent one gives over the studio's backdrop is the opaque one: its edges carry the
+// colour of the head alone, without a dark fringe. Codes of 8 bits for colour and alpha leave two of 255.
+TEST_F(Capture, TransparentPicturesCompositeToTheOpaqueOne)
+{
+    for (const std::uint32_t samples : {1u, 4u}) {
+        app::Scene scene = small::scene(small::head());
+        scene.samples = samples;
+        const app::Stage on = stage(scene);
+        const app::Drawing opaque = draw(on, on.camera(), {{256, 200}, false});
+        const cv::Mat4b rgba = draw(on, on.camera(), {{256, 200}, true}).picture;
+        std::array<int, 3> pixels{}; // clear, part, full
+        for (const cv::Vec4b& pixel : rgba)
+            ++pixels[pixel[3] == 0 ? 0 : pixel[3] < 255 ? 1 : 2];
+        EXPECT_GT(pixels[0], 5000);
+        EXPECT_GT(pixels[2], 5000);
+        EXPECT_EQ(pixels[1] > 100, samples == 4) << "edges are antialiased with more samples only";
+
+        const passes::Backdrop studio = passes::backdrop_of(passes::Canvas({256, 200}));
+        const auto behind = [&](int y) {
+            const glm::vec3 c = glm::mix(studio.top, studio.bottom, (float(y) + 0.5f) / 200);
+            return cv::Vec3f(c.x, c.y, c.z);
+        };
+        const cv::Mat1b differs = difference(to_srgb8(composited(rgba, behind)), opaque.picture);
+        double largest = 0;
+        cv::minMaxLoc(differs, nullptr, &largest);
+        EXPECT_LE(largest, 2);
+    }
+}
+
+TEST_F(Capture, LinearLightIsWhatThePictureEncodes)
+{
+    app::Scene scene = small::scene(small::head());
+    scene.samples = 4;
+    scene.exposure_stops = -1;
+    const app::Stage on = stage(scene);
+    const app::Drawing opaque = draw(on, on.camera(), {{256, 200}, false, true});
+    ASSERT_EQ(opaque.radiance.type(), CV_32FC3);
+    const cv::Mat3f exposed = opaque.radiance * std::exp2(scene.exposure_stops);
+    double brightest = 0;
+    cv::minMaxLoc(exposed.reshape(1), nullptr, &brightest);
+    EXPECT_LT(brightest, 0.8) << "below the shoulder, encoding is exact";
+    const cv::Mat1b differs = difference(to_srgb8(exposed), opaque.picture);
+    EXPECT_EQ(cv::countNonZero(differs > 1), 0);
+
+    const app::Drawing clear = draw(on, on.camera(), {{256, 200}, true, true});
+    ASSERT_EQ(clear.radiance.type(), CV_32FC4);
+    for (int y = 0; y < 200; y += 3)
+        for (int x = 0; x < 256; ++x) {
+            const cv::Vec4f light = clear.radiance.at<cv::Vec4f>(y, x);
+            const cv::Vec4b code = clear.picture.at<cv::Vec4b>(y, x);
+            EXPECT_NEAR(light[3] * 255, code[3], 0.51);
+            if (light[3] > 0) { // premultiplied: divided by alpha it is the picture's straight colour
+                const cv::Vec3d straight(light[0] / light[3], light[1] / light[3], light[2] / light[3]);
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(wound::srgb8_from_linear(straight * 0.5)[c], code[c], 1);
+            }
+        }
+}
+
+TEST_F(Capture, SweepsMoveDayAndCameraEvenly)
+{
+    const app::Stage on = stage(small::scene(small::head(), 64));
+    const app::View view{"", on.camera()};
+    const std::vector<app::Shot> round = app::shots_of_sweep(on, view, {0, 9, 360, 10, "orbit"});
+    ASSERT_EQ(round.size(), 10u);
+    EXPECT_EQ(round[0].name, "orbit_000");
+    EXPECT_EQ(round[0].camera.eye, on.camera().eye) << "begins as the picture";
+    const auto from_axis = [&](const glm::dvec3& point) {
+        const glm::dvec3 arm = point - on.head_middle();
+        return glm::dvec2(std::atan2(arm.x, arm.z), std::hypot(arm.x, arm.z));
+    };
+    const glm::dvec2 start = from_axis(round[0].camera.eye);
+    for (std::size_t i = 0; i < 10; ++i) {
+        EXPECT_NEAR(round[i].day, double(i), 1e-12);
+        EXPECT_NEAR(round[i].turn_deg, 36.0 * double(i), 1e-9) << "the last does not repeat the first";
+        EXPECT_NEAR(from_axis(round[i].camera.eye).y, start.y, 1e-9);
+        const double gone = from_axis(round[i].camera.eye).x - start.x - glm::radians(36.0 * double(i));
+        EXPECT_NEAR(std::remainder(gone, 2 * 3.14159265358979), 0, 1e-9);
+    }
+    EXPECT_EQ(app::shots_of_sweep(on, view, {5, 5, 90, 4, "orbit"}).back().turn_deg, 90);
+    EXPECT_EQ(app::shots_of_sweep(on, view, {5, 5, 90, 1, "orbit"})[0].turn_deg, 0);
+}
+
+// H.264 stores colour at half resolution and loses a little; a frame must still be its own picture and no
+// other.
+TEST_F(Capture, FilmAndPicturesAgreeFrameByFrame)
+{
+    const TemporaryFolder folder;
+    app::Scene scene = small::scene(small::head());
+    scene.size = {161, 121}; // odd: the film repeats the last row and column
+    scene.days = {0, 6, 12, 18, 24};
+    app::CaptureOptions options;
+    options.out = folder / "out";
+    options.cost = options.sheet = false;
+    options.views = {"close-up"};
+    options.video = folder / "film.mp4";
+    options.fps = 5;
+    options.duration_s = 1;
+    app::Progress progress;
+    std::vector<std::string> lines;
+    const json record = app::capture(renderer(), stage(scene), options, progress, lines);
+    ASSERT_EQ(record["films"].size(), 1u);
+    EXPECT_EQ(record["films"][0]["frames"].size(), 5u);
+    EXPECT_EQ(record["films"][0]["frames"][1]["day"], 6);
+
+    const std::vector<cv::Mat3b> frames = decoded(folder / "film_close-up.mp4", {162, 122});
+    ASSERT_EQ(frames.size(), 5u);
+    std::vector<cv::Mat3b> pictures;
+    for (const json& day : record["days"])
+        pictures.push_back(engine::read_rgb(options.out / day["file"].get<std::string>()));
+    for (std::size_t i = 0; i < 5; ++i) {
+        const cv::Mat3b frame = frames[i](cv::Rect(0, 0, 161, 121));
+        const double own = cv::PSNR(frame, pictures[i]);
+        EXPECT_GT(own, 36) << i;
+        for (std::size_t other = 0; other < 5; ++other)
+            EXPECT_LT(cv::PSNR(frame, pictures[other]), other == i ? own + 1 : own - 2) << i << " " << other;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "film.mp4"));
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+        EXPECT_FALSE(entry.path().filename().string().starts_with('.')) << entry.path();
+}
+
+TEST_F(Capture, WritesTurntablesWithAlphaAndLinearLight)
+{
+    const TemporaryFolder folder;
+    app::Scene scene = small::scene(small::head(), 64);
+    scene.days = {4};
+    app::CaptureOptions options;
+    options.out = folder / "out";
+    options.cost = false;
+    options.orbit = 3;
+    options.transparent = options.exr = true;
+    app::Progress progress;
+    std::vector<std::string> lines;
+    const json record = app::capture(renderer(), stage(scene), options, progress, lines);
+    ASSERT_EQ(record["days"].size(), 3u);
+    EXPECT_EQ(record["days"][2]["turn_deg"], 240);
+    EXPECT_EQ(record["days"][2]["day"], 4);
+    EXPECT_EQ(record["days"][2]["file"], "orbit_002.png");
+    EXPECT_EQ(cv::imread(options.out / "orbit_002.png", cv::IMREAD_UNCHANGED).channels(), 4);
+    const cv::Mat light =
+        cv::imread(options.out / record["days"][2]["exr"].get<std::string>(), cv::IMREAD_UNCHANGED);
+    ASSERT_EQ(light.type(), CV_32FC4);
+    cv::Mat alpha;
+    cv::extractChannel(light, alpha, 3);
+    EXPECT_EQ(cv::sum(alpha > 0.5)[0], cv::sum(alpha > 0)[0]) << "one sample: head or not";
+    EXPECT_GT(cv::countNonZero(alpha), 500);
+    EXPECT_TRUE(std::filesystem::exists(options.out / "healing.png"));
+}
+
+TEST(ProgressText, CountsAndTellsTheTimeLeft)
+{
+    EXPECT_EQ(app::progress_text("day 3", 0, 1, 9), "day 3");
+    EXPECT_EQ(app::progress_text("day 3", 0, 40, 9), "day 3   1 of 40   0 %");
+    EXPECT_EQ(app::progress_text("day 3", 10, 40, 30), "day 3   11 of 40   25 %   1:30 left");
+    EXPECT_EQ(app::progress_text("day 3", 1, 101, 50), "day 3   2 of 101   0 %   1:23:20 left");
 }

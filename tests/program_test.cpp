@@ -255,6 +255,8 @@ TEST_F(Program, RefusesBrokenScenes)
     refused(R"({"wounds": [{"width": 3}]})", "/wounds/0/width");
     refused(R"({"wounds": [{"width_mm": -3}]})", "/wounds/0/width_mm");
     refused(R"({"exposure_stops": NaN})", "JSON");
+    refused(R"({"views": [{"name": "a/b"}]})", "/views/0/name");
+    refused(R"({"views": ["front", "front"]})", "/views/1");
     refused(R"({"camera": {"fov_deg": 1e999}})", "JSON");
     expect_refusal(capture({with("scene.json", R"({"tissue": "none.json"})"), "--head", head_}),
                    {"none.json"});
@@ -268,6 +270,8 @@ TEST_F(Program, RefusesSenselessOptions)
     expect_refusal(on_the_head({"--days", "-1"}), {"--days", "-1"});
     expect_refusal(on_the_head({"--mode", "fancy"}), {"--mode", "fancy"});
     expect_refusal(on_the_head({"--device", "no such device"}), {"no such device"});
+    expect_refusal(on_the_head({"--views", "front,lefft"}), {"--views", "lefft", "left"});
+    expect_refusal(on_the_head({"--tile", "77"}), {"--tile", "77"});
     expect_refusal(on_the_head({"--no-such-option"}), {"--no-such-option", "--help"});
     expect_refusal(run_program({"paint"}), {"paint", "--help"});
     expect_refusal(run_program({}), {"--help"});
@@ -283,6 +287,30 @@ TEST_F(Program, RefusesAnOutputFolderItCannotWrite)
         run_program({"graph", "--head", head_, "--days", "0", "--size", "64x64", "--dot", below_a_file});
     graph.out.clear(); // the text printed until then stands
     expect_refusal(graph, {below_a_file});
+}
+
+TEST_F(Program, RefusesFilmsItCannotMake)
+{
+    const std::string film = file("film.mp4");
+    expect_refusal(on_the_head({"--video", file("film.avi")}), {"--video", "film.avi", ".mp4"});
+    expect_refusal(on_the_head({"--video", film, "--days", "3"}), {"--video", "day 3", "--orbit"});
+    expect_refusal(on_the_head({"--video", film, "--transparent"}), {"--transparent", "--video"});
+    expect_refusal(on_the_head({"--video", film, "--fps", "0"}), {"--fps"});
+    const std::vector<std::string> short_film{"--head", head_,    "--video", film,         "--size",
+                                              "64x64",  "--days", "0,30",    "--duration", ".2"};
+    expect_refusal(capture(short_film, {"PATH=/nonexistent"}), {"ffmpeg", "apt-get install ffmpeg"});
+
+    // One that takes a while to give up, in the middle of a picture.
+    const std::filesystem::path tools = folder_ / "tools", script = tools / "ffmpeg";
+    std::filesystem::create_directory(tools);
+    std::ofstream(script) << "#!/bin/sh\nhead -c 1000 >/dev/null\necho 'Unknown encoder' >&2\nexit 3\n";
+    std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+    const Outcome failed = capture(short_film, {"PATH=" + tools.string() + ":/usr/bin:/bin"});
+    EXPECT_EQ(failed.code, 1);
+    EXPECT_THAT(failed.err,
+                testing::AllOf(HasSubstr("film.mp4"), HasSubstr("Unknown encoder"), HasSubstr("libx264")));
+    for (const std::string& name : files_in(folder_.path()))
+        EXPECT_THAT(name, testing::Not(testing::EndsWith(".mp4")));
 }
 
 TEST_F(Program, SaysSoWithoutAVulkanDevice)
