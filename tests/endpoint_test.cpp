@@ -129,12 +129,14 @@ TEST_F(Endpoint, NothingJumpsWhereTheWoundBecomesAScar)
         std::vector<double> change;
         for (std::size_t k = 0; k + 1 < steps.size(); ++k)
             change.push_back(cv::norm(steps[k + 1], steps[k], cv::NORM_INF));
-        const cv::Mat3f jump = cv::abs(seen(closed + 0.005) - seen(closed - 0.005));
-        cv::Mat3f around; // the day before and the day after, the larger of both, pixel by pixel
-        cv::max(cv::abs(steps[6] - steps[4]), cv::abs(steps[8] - steps[6]), around);
+        cv::Mat3f jump, before, after;
+        cv::absdiff(seen(closed + 0.005), seen(closed - 0.005), jump);
+        cv::absdiff(steps[6], steps[4], before);
+        cv::absdiff(steps[8], steps[6], after);
+        const cv::Mat3f around = cv::max(before, after); // of a day, pixel by pixel
         constexpr double half_float = 1e-3; // radiance is held in half floats
         double least = 1;
-        cv::minMaxLoc((around - jump).reshape(1), &least);
+        cv::minMaxLoc(cv::Mat3f(around - jump).reshape(1), &least);
         EXPECT_GE(least, -half_float) << name;
         EXPECT_LE(cv::norm(jump, cv::NORM_INF), 0.1 * std::max(change[5], change[6]) + half_float) << name;
         for (std::size_t k = 1; k + 1 < change.size(); ++k)
