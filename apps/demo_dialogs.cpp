@@ -104,6 +104,18 @@ void draw_film(DemoState& state)
         state.wishes.film = state.entries.path;
 }
 
+void draw_recording(DemoState& state)
+{
+    if (state.entries.picture)
+        ImGui::Image(
+            engine::UiRenderer::texture_id(*state.entries.picture),
+            {float(state.entries.pixels[0]) * state.scale, float(state.entries.pixels[1]) * state.scale});
+    ImGui::ProgressBar(float(state.recorded),
+                       {std::max(320.0f, float(state.entries.pixels[0])) * state.scale, 0});
+    if (ImGui::Button("Stop, keep nothing"))
+        state.wishes.stop_film = true;
+}
+
 /// The photograph, fitted into the dialog; a rectangle is drawn on it with the mouse.
 void draw_photo(DemoState& state)
 {
@@ -152,7 +164,8 @@ struct DialogPage
     const char* title;
     void (*draw)(DemoState&);
 };
-constexpr std::array<DialogPage, 6> pages{{{Dialog::Open, "Open", draw_open},
+constexpr std::array<DialogPage, 7> pages{{{Dialog::Recording, "Recording", draw_recording},
+                                           {Dialog::Open, "Open", draw_open},
                                            {Dialog::SaveScene, "Save scene", draw_save_scene},
                                            {Dialog::SavePicture, "Save picture", draw_save_picture},
                                            {Dialog::Film, "Record film", draw_film},

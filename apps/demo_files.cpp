@@ -128,6 +128,8 @@ void DemoWindow::grant_wishes()
         save_picture(*file);
     if (const auto wound = std::exchange(wishes.photo_area, std::nullopt))
         open_photo(state_.scene.wounds.at(*wound).photo, wound);
+    if (const auto file = std::exchange(wishes.film, std::nullopt))
+        start_film(*file);
     if (std::exchange(wishes.use_photo, false))
         use_photo();
 }
@@ -140,8 +142,7 @@ std::optional<glm::dvec3> DemoWindow::place_at(const glm::dvec2& at) const
 
 void DemoWindow::put_wound(const glm::dvec2& at)
 {
-    const auto place =
-        stage_->pick(stage_->camera(), at.x, at.y, double(state_.view.width) / state_.view.height);
+    const auto place = place_at(at);
     if (!place) {
         state_.selected.reset(); // beside the head
         return;
@@ -159,8 +160,7 @@ void DemoWindow::put_wound(const glm::dvec2& at)
 
 void DemoWindow::move_wound(const glm::dvec2& to)
 {
-    const auto place =
-        stage_->pick(stage_->camera(), to.x, to.y, double(state_.view.width) / state_.view.height);
+    const auto place = place_at(to);
     if (place && state_.selected && *state_.selected < state_.scene.wounds.size())
         state_.scene.wounds[*state_.selected].place = *place;
 }
@@ -190,7 +190,7 @@ void DemoWindow::open_scene(const std::filesystem::path& file)
     state_.scene = scene;
     state_.scene_file = file;
     state_.selected.reset();
-    state_.playback = Playback{.days_per_second = state_.playback.days_per_second};
+    state_.playback = {.day = scene.days.front(), .days_per_second = state_.playback.days_per_second};
     if (!is_published(scene))
         state_.mended = scene;
 }
@@ -198,17 +198,9 @@ void DemoWindow::open_scene(const std::filesystem::path& file)
 void DemoWindow::open_photo(const std::filesystem::path& file, std::optional<std::size_t> wound)
 {
     attempt([&] {
-        cv::Mat3b photo = engine::read_rgb(file);
+        const cv::Mat3b photo = engine::read_rgb(file);
+        show_in_dialog(photo);
         state_.entries.pixels = {photo.cols, photo.rows};
-        const double shrink = std::min(1.0, 1600.0 / std::max(photo.cols, photo.rows));
-        if (shrink < 1)
-            cv::resize(photo, photo, {}, shrink, shrink, cv::INTER_AREA);
-        cv::Mat4b rgba;
-        cv::cvtColor(photo, rgba, cv::COLOR_RGB2RGBA);
-        vkQueueWaitIdle(renderer_->device.queue()); // the last frame may still show the old one
-        photo_ = std::make_unique<engine::Texture>(renderer_->device, rgba, engine::Encoding::Linear, false,
-                                                   "photo");
-        state_.entries.picture = photo_.get();
         state_.entries.photo = std::filesystem::absolute(file);
         state_.entries.wound = wound;
         state_.entries.rectangle.reset();
@@ -217,6 +209,19 @@ void DemoWindow::open_photo(const std::filesystem::path& file, std::optional<std
         state_.dialog = Dialog::Area;
         settle_ = 2;
     });
+}
+
+void DemoWindow::show_in_dialog(const cv::Mat3b& picture)
+{
+    cv::Mat3b small = picture;
+    if (const double shrink = 1600.0 / std::max(picture.cols, picture.rows); shrink < 1)
+        cv::resize(picture, small, {}, shrink, shrink, cv::INTER_AREA);
+    cv::Mat4b rgba;
+    cv::cvtColor(small, rgba, cv::COLOR_RGB2RGBA);
+    vkQueueWaitIdle(renderer_->device.queue()); // the last frame may still show the old one
+    photo_ =
+        std::make_unique<engine::Texture>(renderer_->device, rgba, engine::Encoding::Linear, false, "photo");
+    state_.entries.picture = photo_.get();
 }
 
 void DemoWindow::use_photo()
@@ -266,6 +271,61 @@ void DemoWindow::save_picture(std::filesystem::path file)
         state_.notices.say(fmt::format("Saved {}", file.string()), now_s());
     });
     settle_ = 2;
+}
+
+void DemoWindow::start_film(std::filesystem::path file)
+{
+    if (file.extension().empty())
+        file += ".mp4";
+    attempt([&] {
+        const DemoState::Entries& entries = state_.entries;
+        Recording recording;
+        recording.file = file;
+        recording.options.size = {std::uint32_t(entries.size[0]), std::uint32_t(entries.size[1])};
+        recording.pictures =
+            std::max<std::size_t>(2, std::size_t(entries.seconds * entries.frames_per_second));
+        recording.film = std::make_unique<Film>(file, recording.options.size, entries.frames_per_second);
+        recording_ = std::move(recording);
+        picture_ = VK_NULL_HANDLE; // the executor makes room for the other size
+        state_.playback.playing = false;
+        state_.dialog = Dialog::Recording;
+    });
+}
+
+/// One picture at a time, so that the window stays alive.
+void DemoWindow::record_picture()
+{
+    const auto end = [&](const std::string& word) {
+        recording_.reset();
+        state_.dialog = Dialog::None;
+        if (!word.empty())
+            state_.notices.say(word, now_s());
+        settle_ = 2;
+    };
+    if (std::exchange(state_.wishes.stop_film, false)) {
+        end("Recording stopped; no film was written");
+        return;
+    }
+    try {
+        Recording& now = *recording_;
+        const double day = state_.playback.axis.day_at(double(now.next) / double(now.pictures - 1));
+        const cv::Mat3b picture =
+            draw(*renderer_, *stage_, {day, "", stage_->camera(), "film"}, now.options).picture;
+        now.film->add(picture);
+        cv::Mat3b preview;
+        cv::resize(picture, preview, {480, std::max(1, 480 * picture.rows / picture.cols)}, 0, 0,
+                   cv::INTER_AREA);
+        show_in_dialog(preview);
+        state_.entries.pixels = {preview.cols, preview.rows};
+        state_.recorded = double(++now.next) / double(now.pictures);
+        if (now.next < now.pictures)
+            return;
+        now.film->finish();
+        end(fmt::format("Saved {}", now.file.string()));
+    } catch (const cicatrix::InputError& error) {
+        end("");
+        state_.notices.fail(error.what());
+    }
 }
 
 } // namespace app

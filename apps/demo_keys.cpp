@@ -95,7 +95,9 @@ constexpr std::array<std::array<const char*, 2>, 8> gestures{{
 void press(DemoState& state, const engine::KeyPress& key)
 {
     if (state.dialog != Dialog::None) {
-        if (key.key == GLFW_KEY_ESCAPE || (key.key == GLFW_KEY_F1 && state.dialog == Dialog::Help))
+        if (state.dialog == Dialog::Recording)
+            state.wishes.stop_film = key.key == GLFW_KEY_ESCAPE;
+        else if (key.key == GLFW_KEY_ESCAPE || (key.key == GLFW_KEY_F1 && state.dialog == Dialog::Help))
             state.dialog = Dialog::None;
         return;
     }

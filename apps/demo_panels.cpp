@@ -108,11 +108,14 @@ void draw_healing(DemoState& state, wound::Healing& healing)
             healing.model = wound::HealingModel::contraction;
         ImGui::EndCombo();
     }
+    if (!ImGui::TreeNode("Parameters"))
+        return;
     slider("gamma", healing.curve.gamma, .5, 4, "%.2f");
     slider("delta", healing.curve.delta, .001, 2, "%.4f", ImGuiSliderFlags_Logarithmic);
     slider("theta", healing.curve.theta, -.2, .5, "%.3f");
     if (face)
         slider("residual", healing.residual_border, 0, 1, "%.2f of the border");
+    ImGui::TreePop();
 }
 
 bool section(const char* name, bool open)

@@ -55,7 +55,8 @@ enum class Dialog : std::uint8_t
     SaveScene,
     SavePicture,
     Film,
-    Area, // of the wound in a photograph
+    Recording, // of a film, under way
+    Area,      // of the wound in a photograph
     Help
 };
 
@@ -116,6 +117,7 @@ struct DemoState
         std::optional<cv::Rect2d> rectangle; // pixels of the photograph
         std::optional<std::size_t> wound;    // none: a new one
     } entries;
+    double recorded = 0;              // of a film, 0..1
     std::filesystem::path scene_file; // where it was read from or saved to
 
     struct Wishes
@@ -126,6 +128,7 @@ struct DemoState
         std::optional<std::filesystem::path> open, save_scene, save_picture, film;
         std::optional<std::size_t> photo_area; // show the dialog for this wound's photograph
         bool use_photo = false;                // as the dialog has it
+        bool stop_film = false;
     } wishes;
 };
 

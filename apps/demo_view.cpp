@@ -151,6 +151,7 @@ void use_mouse(DemoState& state)
     } else if (ImGui::IsItemActive()) {
         drag_on(state, at);
     } else if (state.mouse.drag != Drag::None) {
+        drag_on(state, at); // the last of the way may have been covered in this frame
         const bool clicked = state.mouse.travelled <= 4 * state.scale && state.mouse.drag == Drag::Turn;
         if (clicked)
             state.wishes.wound_at = at;

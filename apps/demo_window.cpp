@@ -71,7 +71,7 @@ std::optional<double> DemoWindow::patience() const
         return std::nullopt;
     if (!on_screen_)
         return .05; // the window gave no image
-    if (settle_ > 0)
+    if (settle_ > 0 || recording_ || window_.has_key_changes())
         return 0;
     if (state_.playback.playing)
         return std::max(0.0, frame_s - (now - last_step_));
@@ -101,10 +101,13 @@ void DemoWindow::step()
     state_.notices.drop_old(now);
     state_.scale = ui_->scale();
     tell_facts();
+    if (recording_)
+        record_picture(); // before the interface refers to the picture of it that is replaced
     ui_->begin(swapchain_->ui());
     draw_demo(state_);
     const ImDrawData* drawn = ui_->end();
-    apply_edits();
+    if (!recording_)
+        apply_edits();
     if (state_.moving || state_.playback.playing || ImGui::GetIO().MouseWheel != 0)
         quality_.moving(now);
     const bool rendered = render();
@@ -122,6 +125,7 @@ void DemoWindow::finish_loading()
     settle_ = 2;
     stage_ = std::make_unique<Stage>(renderer_->device, state_.scene, loading_.get());
     state_.loading = false;
+    state_.playback.day = state_.scene.days.front();
     state_.mended = is_published(state_.scene) ? Scene{} : state_.scene;
     history_ = History(state_.scene);
     for (const std::string& note : stage_->notes())
@@ -164,14 +168,17 @@ std::array<std::uint32_t, 2> DemoWindow::view_pixels() const
 bool DemoWindow::render()
 {
     const std::array<std::uint32_t, 2> full = view_pixels();
-    if (!stage_ || full[0] < 16 || full[1] < 16)
+    if (!stage_ || recording_ || full[0] < 16 || full[1] < 16)
         return false;
     const double scale = quality_.scale(now_s());
-    return draw_picture(1) || (scale < 1 && draw_picture(scale));
+    Drawn drawn = draw_picture(1);
+    if (drawn == Drawn::NotNow)
+        drawn = draw_picture(scale);
+    return drawn == Drawn::Now;
 }
 
 /// Asks first whether the picture is there already; a smaller one only when a full one is not.
-bool DemoWindow::draw_picture(double scale)
+DemoWindow::Drawn DemoWindow::draw_picture(double scale)
 {
     const std::array<std::uint32_t, 2> full = view_pixels();
     const std::array<std::uint32_t, 2> size{std::max(16u, std::uint32_t(std::lround(full[0] * scale))),
@@ -184,9 +191,9 @@ bool DemoWindow::draw_picture(double scale)
                   : stage_->declare(graph, day, size).picture;
     graph.present(picture);
     if (picture_ != VK_NULL_HANDLE && renderer_->executor.up_to_date(graph))
-        return false;
+        return Drawn::Already;
     if (scale == 1 && quality_.scale(now_s()) < 1)
-        return false; // not now: something moves
+        return Drawn::NotNow; // something moves
     const engine::FrameResult result = renderer_->executor.run(graph);
     picture_ = renderer_->executor.presented(graph.images[picture.index].name);
     picture_size_ = size;
@@ -196,7 +203,7 @@ bool DemoWindow::draw_picture(double scale)
     state_.render_scale = scale;
     ++pictures_;
     settle_ = std::max(settle_, 1); // the panel shows what it cost
-    return true;
+    return Drawn::Now;
 }
 
 engine::WindowFrame DemoWindow::frame(const ImDrawData* ui) const

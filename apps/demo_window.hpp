@@ -7,6 +7,7 @@
 
 #include "apps/demo_events.hpp"
 #include "apps/demo_ui.hpp"
+#include "apps/film.hpp"
 #include "apps/history.hpp"
 #include "apps/renderer.hpp"
 #include "apps/scene_options.hpp"
@@ -43,7 +44,13 @@ class DemoWindow
 
     // What is shown.
     bool render();
-    bool draw_picture(double scale);
+    enum class Drawn : std::uint8_t
+    {
+        Already, // what would be drawn is there
+        Now,
+        NotNow
+    };
+    Drawn draw_picture(double scale);
     engine::WindowFrame frame(const ImDrawData* ui) const;
     std::array<std::uint32_t, 2> view_pixels() const;
     void tell_facts(); // to the interface
@@ -68,6 +75,9 @@ class DemoWindow
     void use_photo();
     void save_scene(std::filesystem::path file);
     void save_picture(std::filesystem::path file);
+    void start_film(std::filesystem::path file);
+    void record_picture(); // of the film
+    void show_in_dialog(const cv::Mat3b& picture);
     template <typename Work>
     void attempt(Work work); // an error in it becomes a notice
 
@@ -79,6 +89,14 @@ class DemoWindow
     std::unique_ptr<engine::Swapchain> swapchain_;
     std::unique_ptr<engine::Ui> ui_;
     std::unique_ptr<engine::Texture> photo_; // in the dialog
+    struct Recording
+    {
+        std::unique_ptr<Film> film;
+        std::filesystem::path file;
+        DrawOptions options;
+        std::size_t next = 0, pictures = 0;
+    };
+    std::optional<Recording> recording_;
     std::future<Stage::Props> loading_;
     std::unique_ptr<Stage> stage_;
     std::optional<Stage> compared_; // right of the divider

@@ -128,7 +128,7 @@ Desktop::Desktop()
     const std::string number = text_of(folder_ / "out");
     if (!ready || number.empty())
         throw std::runtime_error("no desktop (Debian: xvfb): " + text_of(folder_ / "err"));
-    display_ = ":" + number.substr(0, number.size() - 1);
+    display_ = fmt::format(":{}", std::stoi(number));
 }
 
 /// The server keeps its screen in a file of the format XWD: a header of big-endian words, a table of colours,
