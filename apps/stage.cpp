@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "apps/bake.hpp"
 #include "passes/skin_under.hpp"
@@ -142,9 +143,15 @@ Stage::Stage(const engine::Device& device, const Scene& scene, const Props& prop
     settle();
 }
 
-void Stage::update(const Scene& scene)
+void Stage::update(const Scene& scene, bool dragging)
 {
-    accept(make(scene));
+    const bool before = std::exchange(dragging_, dragging);
+    try {
+        accept(make(scene));
+    } catch (...) {
+        dragging_ = before;
+        throw;
+    }
 }
 
 void Stage::accept(Set set)
@@ -173,6 +180,8 @@ bool Stage::poll()
 
 void Stage::settle()
 {
+    if (dragging_)
+        update(Scene(set_.scene));
     while (pending()) {
         workshop_->wait();
         poll();
@@ -215,7 +224,7 @@ void Stage::place_wounds(Set& set) const
     for (std::size_t i = 0; i < set.placed.size(); ++i) {
         const WoundScene& wound = set.placed[i];
         const std::string name = name_of(wound, i);
-        std::shared_ptr<Fit> fit = workshop_->fit(wound, set.head, name);
+        std::shared_ptr<Fit> fit = workshop_->fit(wound, set.head, name, !dragging_);
         const bool exact = fit != nullptr;
         if (!exact) {
             set.complete = false;
