@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "apps/bake_pictures.hpp"
+#include "apps/progress.hpp"
 #include "engine/image_io.hpp"
 #include "passes/reflectance_table.hpp"
 #include "wound/healing.hpp"
@@ -30,30 +31,34 @@ HealingTissue healing_tissue_or_file(const std::string& name)
     return tissue;
 }
 
-TissueDay open_bed_on(const HealingTissue& tissue, double day)
+TissueDay tissue_on(const HealingTissue& tissue, shared::uint part, double day)
 {
-    return open_bed(tissue, day, healing_at(Healing{}, day).depth_scale);
+    const Healing healing;
+    return part == shared::LUT_OPEN ? open_bed(tissue, day, healing_at(healing, day).depth_scale)
+                                    : covered_bed(tissue, day, closure_day(healing.curve));
 }
 
 namespace {
 
 // Figure 6 of the paper: the colour alone. The printed blend of the printed reflectance beside ours, in the
 // same wound.
-cv::Mat3b strip(const cv::Mat3f& open, const cv::Mat3f& covered, const shared::LutAxes& axes)
+cv::Mat3b strip(const cv::Mat3f& table, const shared::LutAxes& axes)
 {
     const Color wound_color(.30, .035, .03);
-    const Color skin_color = passes::sample_table(open, axes, 0, 0);
+    const Color skin_color = passes::sample_table(table, axes, shared::LUT_OPEN, 0, 0);
     constexpr double depth_mm = 1;
     const Healing healing;
     std::vector<double> days;
+    for (double day : {0, 1, 3, 6, 9, 12, 15, 18, 21, 24, 27, 30, 60, 90, 180, 365})
+        if (day <= std::max(30.0, double(axes.last_day)))
+            days.push_back(day);
     ColorRow published{"published", {}}, corrected{"corrected", {}}, bed{"open bed, optics", {}},
         ring{"covered, optics", {}};
-    for (double day = 0; day <= 30; day += 2) {
+    for (const double day : days) {
         const HealingState state = healing_at(healing, day);
-        days.push_back(day);
         const SkinLayers printed = layers_at(restored_skin(table1(), state.depth_scale), depth_mm);
-        bed.colors.push_back(passes::sample_table(open, axes, depth_mm, day));
-        ring.colors.push_back(passes::sample_table(covered, axes, depth_mm, day));
+        bed.colors.push_back(passes::sample_table(table, axes, shared::LUT_OPEN, depth_mm, day));
+        ring.colors.push_back(passes::sample_table(table, axes, shared::LUT_COVERED, depth_mm, day));
         published.colors.push_back(blend(BlendModel::Published, wound_color,
                                          tissue_color(printed, Rung::Published), skin_color,
                                          state.recovery_ratio));
@@ -78,21 +83,33 @@ std::filesystem::path cache_folder()
     return std::filesystem::temp_directory_path() / "cicatrix";
 }
 
+cv::Mat3f kept_table(const passes::LutRows& rows, std::uint32_t width, Rung rung, RungOptions options)
+{
+    Progress progress;
+    constexpr std::size_t steps = 100;
+    std::size_t done = 0;
+    progress.expect(steps);
+    options.progress = [&](double share) {
+        for (; static_cast<double>(done) < share * steps; ++done)
+            progress.step();
+        progress.show(fmt::format("reflectance table, {}", name(rung)));
+    };
+    return passes::cached_reflectance_table(cache_folder(), rows.days, width, rung, options);
+}
+
 void bake(const BakeOptions& options, std::ostream& out)
 {
     const HealingTissue tissue = healing_tissue_or_file(options.tissue);
     const passes::LutRows rows = passes::lut_rows(tissue, Healing{}, options.height, options.last_day);
     make_folder(options.out);
-    const auto table = [&](const std::vector<TissueDay>& days) {
-        return passes::cached_reflectance_table(cache_folder(), days, options.width, options.rung,
-                                                options.rung_options);
-    };
-    const cv::Mat3f open = table(rows.open), covered = table(rows.covered);
+    const cv::Mat3f table = kept_table(rows, options.width, options.rung, options.rung_options);
+    const auto height = static_cast<int>(options.height);
+    const cv::Mat3f open = table.rowRange(0, height), covered = table.rowRange(height, 2 * height);
     engine::write_exr(options.out / "open_bed.exr", open);
     engine::write_exr(options.out / "covered.exr", covered);
     engine::write_png(options.out / "tables.png",
                       draw_tables({{"open bed", open}, {"covered", covered}}, rows.axes));
-    engine::write_png(options.out / "color_over_days.png", strip(open, covered, rows.axes));
+    engine::write_png(options.out / "color_over_days.png", strip(table, rows.axes));
     fmt::print(out, "{}: open_bed.exr, covered.exr ({} x {}, {}), tables.png, color_over_days.png\n",
                options.out.string(), options.width, options.height, name(options.rung));
 }
@@ -136,6 +153,7 @@ void add_bake_command(CLI::App& app)
         ->check(CLI::Range(100.0, 1e10))
         ->capture_default_str();
     command->add_flag("--compare", *comparing, "Measure every model against the photon walk");
+    command->footer("Example: cicatrix bake --tissue dark --out out/bake");
     command->callback(
         [options, comparing] { *comparing ? compare(*options, std::cout) : bake(*options, std::cout); });
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "passes/reflectance_lut.hpp"
 #include "wound/reflectance.hpp"
 #include "wound/skin_presets.hpp"
 
@@ -31,11 +32,15 @@ wound::HealingTissue healing_tissue_or_file(const std::string& name);
 /// `out`. Numerical rungs keep their tables in cache_folder().
 void bake(const BakeOptions& options, std::ostream& out);
 
+/// The table of any rung, from cache_folder() or baked and kept there, with progress on a terminal.
+cv::Mat3f kept_table(const passes::LutRows& rows, std::uint32_t width, wound::Rung rung,
+                     wound::RungOptions options);
+
 /// cicatrix/ in XDG_CACHE_HOME, else in ~/.cache.
 std::filesystem::path cache_folder();
 
-/// The open bed of the default healing curve.
-wound::TissueDay open_bed_on(const wound::HealingTissue& tissue, double day);
+/// The tissue of a part of the table (LUT_OPEN, LUT_COVERED) under the default healing curve.
+wound::TissueDay tissue_on(const wound::HealingTissue& tissue, shared::uint part, double day);
 
 /// One rung on one stack.
 struct Measured

@@ -7,10 +7,10 @@
 
 namespace app {
 
-/// Goes up whenever the baked head changes; part of the cached file's name. Read by the script `run`, too.
+/// Goes up whenever the baked head changes; part of the cached file's name.
 constexpr int baked_head_version = 2;
 
-/// Where `run` puts the default head: cicatrix/head-vN.glb in XDG_CACHE_HOME, else in ~/.cache. It need not
+/// Where cicatrix-fetch-head puts the default head: cicatrix/head-vN.glb in XDG_CACHE_HOME, else in ~/.cache. It need not
 /// be there.
 std::filesystem::path default_head_path();
 

@@ -25,14 +25,15 @@ using nlohmann::json;
 constexpr std::size_t most_cells = 48;   // of healing.png, chosen evenly from all pictures
 constexpr std::uint32_t close_up = 1280; // px, longest side: it is shown small
 
-/// Wall-clock milliseconds since this process was started.
-double process_ms()
+/// Wall-clock milliseconds since this process was started; none where /proc does not tell.
+std::optional<double> process_ms()
 {
     // Field 22 of /proc/self/stat: start time in clock ticks since boot, behind a name that may hold blanks
     // and parentheses.
     std::ifstream stat("/proc/self/stat"), uptime("/proc/uptime");
     std::string line;
-    std::getline(stat, line);
+    if (!std::getline(stat, line) || !uptime)
+        return std::nullopt;
     std::istringstream fields(line.substr(line.rfind(')') + 2));
     std::string field;
     for (int i = 3; i <= 22; ++i)
@@ -120,8 +121,9 @@ class Capture
             for (const View& view : views_)
                 record["films"].push_back(film(view));
         if (options_.cost)
-            record["cost"] = measure_cost(renderer_.executor, stage_, lines);
-        record["first_picture_ms"] = *first_picture_ms_; // since the process started
+            record["cost"] = measure_cost(renderer_.device, renderer_.library, stage_, lines);
+        record["first_picture_ms"] =
+            first_picture_ms_ ? json(*first_picture_ms_) : json(nullptr); // since the process started
         record["days"] = days_;
         if (options_.sheet)
             engine::write_png(options_.out / "healing.png", contact_sheet(title(), cells_, 6));

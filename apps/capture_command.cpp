@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <future>
+#include <optional>
 
 #include "apps/capture.hpp"
+#include "apps/labels.hpp"
 #include "apps/output.hpp"
 #include "apps/scene_options.hpp"
 
@@ -11,7 +13,7 @@ namespace {
 struct CommandOptions : SceneOptions
 {
     CaptureOptions capture;
-    bool no_cost = false;
+    bool no_cost = false, labels = false;
 };
 
 void run_capture(CommandOptions& options)
@@ -32,14 +34,26 @@ void run_capture(CommandOptions& options)
     for (const std::string& note : stage.notes())
         fmt::print(stderr, "note: {}\n", note);
 
+    std::optional<LabelFiles> labels;
+    if (options.labels) {
+        labels.emplace(renderer, options.capture.out, options.capture.tile);
+        options.capture.after_picture = [&](const Stage& shown, const Shot& shot, nlohmann::json& entry) {
+            labels->add(shown, shot, entry);
+        };
+    }
+
     Progress progress;
     std::vector<std::string> lines;
     const nlohmann::json record = capture(renderer, stage, options.capture, progress, lines);
+    if (labels)
+        labels->finish();
     progress.clear();
     fmt::print("{} pictures, healing.png and capture.json in {}\n", record["days"].size(),
                options.capture.out.string());
     for (const nlohmann::json& film : record.value("films", nlohmann::json::array()))
         fmt::print("{} frames in {}\n", film["frames"].size(), film["file"].get<std::string>());
+    if (labels)
+        fmt::print("labels: labels.json, coco.json and, to look at, labels.png\n");
     for (const std::string& line : lines)
         fmt::print("{}\n", line);
 }
@@ -60,7 +74,10 @@ void add_capture_command(CLI::App& program)
     for (const auto& [name, shows] : standard_views())
         views += fmt::format(" {} ({}),", name, shows);
     views.pop_back();
-    command->add_option("--views", options->capture.views, views)->delimiter(',')->type_name("NAMES");
+    command->add_option("--views", options->capture.views, views)
+        ->delimiter(',')
+        ->allow_extra_args(false) // what follows may be the scene
+        ->type_name("NAMES");
     command
         ->add_option("--orbit", options->capture.orbit,
                      "So many pictures around the head instead of one per day; the day moves from the first "
@@ -68,6 +85,7 @@ void add_capture_command(CLI::App& program)
         ->check(CLI::Range(1, 10000))
         ->type_name("N");
     command->add_option("--orbit-degrees", options->capture.orbit_deg, "How far around")
+        ->type_name("DEGREES")
         ->check(CLI::Range(-3600.0, 3600.0))
         ->capture_default_str();
     command
@@ -76,10 +94,12 @@ void add_capture_command(CLI::App& program)
             "A film as well, the day moving evenly from the first to the last of --days; with --orbit "
             "the camera goes around. Needs the program ffmpeg")
         ->type_name("FILE.mp4");
-    command->add_option("--duration", options->capture.duration_s, "Of the film, in seconds")
+    command->add_option("--duration", options->capture.duration_s, "Of the film")
+        ->type_name("SECONDS")
         ->check(CLI::Range(0.01, 3600.0))
         ->capture_default_str();
     command->add_option("--fps", options->capture.fps, "Its frames per second")
+        ->type_name("N")
         ->check(CLI::Range(1.0, 240.0))
         ->capture_default_str();
     command->add_flag("--transparent", options->capture.transparent,
@@ -91,12 +111,17 @@ void add_capture_command(CLI::App& program)
                      "Pictures with a longer side are drawn in tiles of at most so many pixels a side")
         ->capture_default_str()
         ->type_name("PX");
+    command->add_flag(
+        "--labels", options->labels,
+        "For every picture: classes, wounds, mask, depth and distance as images, areas in pixels "
+        "and mm2, camera, labels.json, coco.json (docs/labels.md)");
     command->add_flag("--no-cost", options->no_cost, "Leave out the cost measurement at the end");
     command->footer("Examples:\n"
                     "  cicatrix capture --days 0:30:3 --wound photo.jpg --mask mask.png --out healing\n"
                     "  cicatrix capture --days 0:30:10 --views front,left,close-up\n"
                     "  cicatrix capture --days 0,30 --video healing.mp4 --duration 10\n"
-                    "  cicatrix capture --days 5 --orbit 36 --transparent --size 800x800");
+                    "  cicatrix capture --days 5 --orbit 36 --transparent --size 800x800\n"
+                    "  cicatrix capture --days 0,9,18 --labels --no-cost");
     command->callback([options] { run_capture(*options); });
 }
 

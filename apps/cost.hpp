@@ -9,9 +9,9 @@
 
 namespace app {
 
-/// Draws the variants in turn, `rounds` times after a warm-up, and compares medians. `lines` receives what a
-/// person reads.
-nlohmann::json measure_cost(engine::Executor& executor, const Stage& stage, std::vector<std::string>& lines,
-                            int rounds = 9);
+/// Measures the variants in turn and compares medians of `rounds` frames. `lines` receives what a person
+/// reads.
+nlohmann::json measure_cost(const engine::Device& device, const engine::ShaderLibrary& library,
+                            const Stage& stage, std::vector<std::string>& lines, int rounds = 9);
 
 } // namespace app

@@ -3,18 +3,70 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace app {
+namespace {
+
+constexpr double scar_days = 366, days_per_month = 30.4; // a year of the scar is shown
+
+} // namespace
 
 double now_s()
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+TimelineAxis::TimelineAxis(double closure_day, double least_days)
+    : closure_day_(closure_day), even_days_(std::max(least_days, 1.0))
+{
+    const bool closes = std::isfinite(closure_day) && closure_day < 3650 - scar_days;
+    if (closes)
+        even_days_ = std::max(even_days_, std::ceil(1.1 * closure_day));
+    last_day_ = closes ? std::max(even_days_, std::ceil(closure_day + scar_days)) : even_days_;
+    even_share_ = last_day_ > even_days_ ? .62 : 1;
+}
+
+double TimelineAxis::day_at(double fraction) const
+{
+    const double at = std::clamp(fraction, 0.0, 1.0);
+    if (at <= even_share_)
+        return at / even_share_ * even_days_;
+    return even_days_ * std::pow(last_day_ / even_days_, (at - even_share_) / (1 - even_share_));
+}
+
+double TimelineAxis::fraction_of(double day) const
+{
+    const double at = std::clamp(day, 0.0, last_day_);
+    if (at <= even_days_)
+        return at / even_days_ * even_share_;
+    return even_share_ + (1 - even_share_) * std::log(at / even_days_) / std::log(last_day_ / even_days_);
+}
+
+std::vector<TimelineAxis::Tick> TimelineAxis::ticks(std::size_t most) const
+{
+    std::vector<Tick> ticks;
+    const auto room = double(std::max<std::size_t>(most, 4)) * even_share_;
+    double step = 1;
+    for (const double wider : {1.0, 2.0, 5.0, 7.0, 14.0, 28.0, 56.0, 112.0, 365.0})
+        if (even_days_ / (step = wider) <= room)
+            break;
+    for (double day = 0; day <= even_days_; day += step)
+        ticks.push_back({day, fmt::format("{:g}", day)});
+    if (last_day_ <= even_days_)
+        return ticks;
+    for (const int months : {1, 2, 3, 6, 12}) {
+        const double day = closure_day_ + months * days_per_month;
+        if (day > even_days_ * 1.15)
+            ticks.push_back({day, fmt::format("+{} mo", months)});
+    }
+    return ticks;
+}
+
 void Playback::toggle()
 {
     playing = !playing;
-    if (playing && day >= last_day)
+    if (playing && day >= axis.last_day())
         day = 0;
 }
 
@@ -22,14 +74,16 @@ void Playback::advance(double seconds)
 {
     if (!playing)
         return;
-    seek(day + seconds * days_per_second);
-    if (day >= last_day)
+    const double per_second = axis.fraction_of(axis.even_until()) / axis.even_until() * days_per_second;
+    const double fraction = axis.fraction_of(day) + seconds * per_second;
+    day = axis.day_at(fraction);
+    if (fraction >= 1)
         playing = false;
 }
 
 void Playback::seek(double to)
 {
-    day = std::clamp(to, 0.0, last_day);
+    day = std::clamp(to, 0.0, axis.last_day());
 }
 
 void Quality::rendered(double scale, double ms)

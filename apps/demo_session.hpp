@@ -5,17 +5,47 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace app {
 
 /// Seconds on a steady clock.
 double now_s();
 
+/// Days along the timeline: the open wound at one scale, then the scar's months ever denser.
+class TimelineAxis
+{
+  public:
+    /// `closure_day`: infinite for a wound that never closes.
+    explicit TimelineAxis(double closure_day, double least_days = 30);
+    TimelineAxis() : TimelineAxis(30) {}
+
+    double day_at(double fraction) const; // of the axis, 0..1
+    double fraction_of(double day) const; // the inverse
+    double last_day() const { return last_day_; }
+    double closure_day() const { return closure_day_; }
+    /// Where the scale changes.
+    double even_until() const { return even_days_; }
+
+    struct Tick
+    {
+        double day;
+        std::string label;
+    };
+    /// Days, weeks or months as there is room, at most `most`.
+    std::vector<Tick> ticks(std::size_t most) const;
+    bool operator==(const TimelineAxis&) const = default;
+
+  private:
+    double closure_day_, even_days_, last_day_, even_share_;
+};
+
 /// Time running over the days.
 struct Playback
 {
-    double day = 0, last_day = 30;
-    double days_per_second = 3;
+    TimelineAxis axis;
+    double day = 0;
+    double days_per_second = 3; // while the wound is open; the scar's months pass as fast along the axis
     bool playing = false;
 
     /// From the beginning when it stands at the end.

@@ -10,60 +10,113 @@ constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoMove | ImGuiWindowF
                                           ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
                                           ImGuiWindowFlags_NoBringToFrontOnFocus;
 
+void file_menu(DemoState& state)
+{
+    if (ImGui::MenuItem("Open scene, head or photo ...", "Ctrl+O"))
+        open_dialog(state, Dialog::Open);
+    ImGui::Separator();
+    if (ImGui::MenuItem("Save scene ...", "Ctrl+S"))
+        open_dialog(state, Dialog::SaveScene);
+    if (ImGui::MenuItem("Save picture ...", "Ctrl+P"))
+        open_dialog(state, Dialog::SavePicture);
+    if (ImGui::MenuItem("Record film ...", "Ctrl+R"))
+        open_dialog(state, Dialog::Film);
+    ImGui::Separator();
+    if (ImGui::MenuItem("Quit", "Ctrl+Q"))
+        state.wishes.quit = true;
+}
+
+void edit_menu(DemoState& state)
+{
+    if (ImGui::MenuItem("Undo", "Ctrl+Z", false, state.can_undo))
+        state.wishes.undo = true;
+    if (ImGui::MenuItem("Redo", "Ctrl+Shift+Z", false, state.can_redo))
+        state.wishes.redo = true;
+    ImGui::Separator();
+    if (ImGui::MenuItem("Delete wound", "Delete", false, state.selected.has_value()))
+        delete_selected(state);
+}
+
+void view_menu(DemoState& state)
+{
+    ImGui::MenuItem("Panels", "Tab", &state.panels);
+    if (ImGui::MenuItem("Camera as at first", "Home"))
+        state.scene.camera = CameraScene{};
+    ImGui::Separator();
+    const auto compare = [&](const char* name, const char* key, Compare which, bool possible = true) {
+        if (ImGui::MenuItem(name, key, state.compare == which, possible))
+            state.compare = state.compare == which ? Compare::Nothing : which;
+    };
+    compare("Split: corrected | published", "C", Compare::Mode);
+    compare("Split: today | day 0", nullptr, Compare::Day0);
+    compare("Split: present settings | kept ones", nullptr, Compare::Kept, state.kept.has_value());
+    if (ImGui::MenuItem("Keep these settings for comparison"))
+        state.kept = state.scene;
+}
+
 float draw_menu(DemoState& state)
 {
     float height = 0;
-    if (ImGui::BeginMainMenuBar()) {
-        if (ImGui::BeginMenu("File")) {
-            if (ImGui::MenuItem("Quit", "Ctrl+Q"))
-                state.wishes.quit = true;
+    if (!ImGui::BeginMainMenuBar())
+        return height;
+    const auto menu = [&](const char* name, void (*items)(DemoState&)) {
+        if (ImGui::BeginMenu(name)) {
+            items(state);
             ImGui::EndMenu();
         }
-        if (ImGui::BeginMenu("View")) {
-            ImGui::MenuItem("Panels", "Tab", &state.panels);
-            ImGui::EndMenu();
-        }
-        if (ImGui::BeginMenu("Help")) {
-            ImGui::MenuItem("Keyboard and mouse", "F1", &state.help);
-            ImGui::EndMenu();
-        }
-        height = ImGui::GetWindowSize().y;
-        ImGui::EndMainMenuBar();
-    }
+    };
+    menu("File", file_menu);
+    menu("Edit", edit_menu);
+    menu("View", view_menu);
+    menu("Help", [](DemoState& s) {
+        if (ImGui::MenuItem("Mouse and keys", "F1"))
+            open_dialog(s, Dialog::Help);
+    });
+    height = ImGui::GetWindowSize().y;
+    ImGui::EndMainMenuBar();
     return height;
+}
+
+void draw_notice(DemoState& state, std::size_t index)
+{
+    const Notice& notice = state.notices.list()[index];
+    ImGui::PushID(int(index));
+    if (notice.error)
+        ImGui::PushStyleColor(ImGuiCol_Text, {1, .62f, .52f, 1});
+    ImGui::PushTextWrapPos(std::min(560 * state.scale, state.view.width - 90 * state.scale));
+    ImGui::TextUnformatted(notice.text.c_str());
+    ImGui::PopTextWrapPos();
+    if (notice.error) {
+        ImGui::PopStyleColor();
+        ImGui::SameLine();
+        if (ImGui::SmallButton("OK"))
+            state.notices.dismiss(index);
+    }
+    ImGui::PopID();
 }
 
 void draw_notices(DemoState& state)
 {
-    const Rectangle& view = state.view;
-    ImGui::SetNextWindowPos({view.left + 12 * state.scale, view.top + view.height - 12 * state.scale}, 0,
-                            {0, 1});
-    ImGui::SetNextWindowSizeConstraints({0, 0}, {view.width - 24 * state.scale, view.height});
-    ImGui::SetNextWindowBgAlpha(.85f);
-    if (state.notices.list().empty() ||
-        !ImGui::Begin("notices", nullptr,
-                      fixed_window | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing))
+    if (state.notices.list().empty())
         return;
-    for (std::size_t i = 0; i < state.notices.list().size(); ++i) {
-        const Notice& notice = state.notices.list()[i];
-        ImGui::PushID(int(i));
-        ImGui::PushStyleColor(ImGuiCol_Text,
-                              notice.error ? ImVec4(1, .6f, .5f, 1) : ImVec4(.89f, .89f, .88f, 1));
-        ImGui::PushTextWrapPos(std::min(560 * state.scale, view.width - 90 * state.scale));
-        ImGui::TextUnformatted(notice.text.c_str());
-        ImGui::PopTextWrapPos();
-        ImGui::PopStyleColor();
-        bool dismissed = false;
-        if (notice.error) {
-            ImGui::SameLine();
-            dismissed = ImGui::SmallButton("OK");
-        }
-        ImGui::PopID();
-        if (dismissed) {
-            state.notices.dismiss(i);
-            break;
-        }
-    }
+    const Rectangle& view = state.view;
+    const float gap = 12 * state.scale;
+    ImGui::SetNextWindowPos({view.left + gap, view.top + view.height - gap}, 0, {0, 1});
+    ImGui::SetNextWindowBgAlpha(.88f);
+    ImGui::Begin("notices", nullptr,
+                 fixed_window | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+    for (std::size_t i = 0; i < state.notices.list().size(); ++i)
+        draw_notice(state, i);
+    ImGui::End();
+}
+
+void draw_fixed(const char* name, const Rectangle& place, void (*contents)(DemoState&), DemoState& state,
+                ImGuiWindowFlags flags)
+{
+    ImGui::SetNextWindowPos({place.left, place.top});
+    ImGui::SetNextWindowSize({place.width, place.height});
+    if (ImGui::Begin(name, nullptr, fixed_window | flags))
+        contents(state);
     ImGui::End();
 }
 
@@ -73,25 +126,27 @@ void draw_demo(DemoState& state)
 {
     const float menu = draw_menu(state);
     const ImVec2 window = ImGui::GetIO().DisplaySize;
-    const float panels = state.panels ? std::min(340 * state.scale, window.x / 2) : 0;
-    const float timeline = std::min(104 * state.scale, window.y / 3);
-    state.view = {0, menu, window.x - panels, window.y - menu - timeline};
-    state.timeline = {0, window.y - timeline, window.x - panels, timeline};
+    const float panels = state.panels ? std::min(330 * state.scale, window.x / 2) : 0;
+    const float timeline = std::min(92 * state.scale, window.y / 3);
+    state.view = {0, menu, std::max(0.0f, window.x - panels), std::max(0.0f, window.y - menu - timeline)};
+    state.timeline = {0, window.y - timeline, state.view.width, timeline};
     draw_view(state);
-    ImGui::SetNextWindowPos({state.timeline.left, state.timeline.top});
-    ImGui::SetNextWindowSize({state.timeline.width, state.timeline.height});
-    if (ImGui::Begin("timeline", nullptr, fixed_window | ImGuiWindowFlags_NoScrollbar))
-        draw_timeline(state);
-    ImGui::End();
-    if (state.panels) {
-        ImGui::SetNextWindowPos({window.x - panels, menu});
-        ImGui::SetNextWindowSize({panels, window.y - menu});
-        if (ImGui::Begin("panels", nullptr, fixed_window))
-            draw_panels(state, {window.x - panels, menu, panels, window.y - menu});
-        ImGui::End();
-    }
+    draw_fixed("timeline", state.timeline, draw_timeline, state,
+               ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    if (state.panels)
+        draw_fixed("panels", {window.x - panels, menu, panels, window.y - menu}, draw_panels, state, 0);
     draw_notices(state);
-    state.moving = ImGui::IsAnyItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left);
+    draw_dialogs(state);
+    state.moving = state.mouse.drag != Drag::None ||
+                   (ImGui::IsAnyItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left) &&
+                    !ImGui::GetIO().WantTextInput);
+}
+
+void delete_selected(DemoState& state)
+{
+    if (state.selected && *state.selected < state.scene.wounds.size())
+        state.scene.wounds.erase(state.scene.wounds.begin() + std::ptrdiff_t(*state.selected));
+    state.selected.reset();
 }
 
 } // namespace app

@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include "engine/image_io.hpp"
+#include "wound/healing.hpp"
 #include "wound/input_error.hpp"
 
 namespace app {
@@ -14,56 +15,36 @@ namespace {
 constexpr std::array<int, 2> first_size{1280, 720};
 constexpr double frame_s = 1.0 / 60; // no display shows more
 
+engine::DeviceOptions window_device(const DemoOptions& options, const engine::Window& window)
+{
+    engine::DeviceOptions device = device_options(options);
+    device.instance_extensions = window.instance_extensions();
+    device.wishes = {{engine::Window::swapchain_extension}, engine::Window::can_present};
+    return device;
+}
+
 } // namespace
 
 DemoWindow::DemoWindow(const DemoOptions& options)
     : options_(options), events_(options.events), window_("Cicatrix", first_size)
 {
-    load(chosen_scene(options_)); // on another thread, while the device is opened
-    engine::DeviceOptions wanted = device_options(options_);
-    wanted.instance_extensions = window_.instance_extensions();
-    wanted.wishes = {{engine::Window::swapchain_extension}, engine::Window::can_present};
-    device_ = std::make_unique<engine::Device>(wanted);
-    executor_ = std::make_unique<engine::Executor>(*device_, shaders_);
-    swapchain_ = std::make_unique<engine::Swapchain>(*device_, window_);
+    state_.scene = chosen_scene(options_);
+    state_.scene_file = options_.scene;
+    loading_ = std::async(std::launch::async, [scene = state_.scene] {
+        Stage::Props props = Stage::prepare(scene);
+        engine::Window::wake();
+        return props;
+    }); // while the device is opened
+    renderer_ = std::make_unique<Renderer>(window_device(options_, window_));
+    swapchain_ = std::make_unique<engine::Swapchain>(renderer_->device, window_);
     ui_ = std::make_unique<engine::Ui>(window_, options_.scale);
-    state_.device = device_->info().name;
+    state_.device = renderer_->device.info().name;
 }
 
 DemoWindow::~DemoWindow()
 {
     if (loading_.valid())
         loading_.wait();
-}
-
-void DemoWindow::load(const Scene& scene)
-{
-    loading_scene_ = scene;
-    state_.loading = true;
-    loading_ = std::async(std::launch::async, [scene] {
-        Stage::Props props = Stage::prepare(scene);
-        engine::Window::wake();
-        return props;
-    });
-}
-
-void DemoWindow::finish_loading()
-{
-    if (!loading_.valid() || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-        return;
-    state_.loading = false;
-    settle_ = 2;
-    try {
-        stage_ = std::make_unique<Stage>(*device_, loading_scene_, loading_.get());
-        state_.scene = loading_scene_;
-        state_.playback.last_day = std::max(1.0, *std::ranges::max_element(state_.scene.days));
-        for (const std::string& note : stage_->notes())
-            state_.notices.say(note, now_s());
-    } catch (const cicatrix::InputError& error) {
-        if (!stage_)
-            throw;
-        state_.notices.fail(error.what());
-    }
 }
 
 void DemoWindow::run()
@@ -73,16 +54,13 @@ void DemoWindow::run()
         const std::optional<double> wait = patience();
         if (!wait)
             tell_idle();
-        const std::uint64_t before = frames_;
+        if (state_.wishes.quit)
+            break;
         window_.wait(wait);
         settle_ = wait ? std::max(0, settle_ - 1) : 2;
         step();
-        told_idle_ = told_idle_ && frames_ == before;
     }
-    const std::vector<std::string> messages = device_->validation_messages();
-    if (!messages.empty())
-        throw std::runtime_error(
-            fmt::format("{} validation messages; the first: {}", messages.size(), messages.front()));
+    fail_on_validation(renderer_->device);
     events_.tell("end");
 }
 
@@ -91,18 +69,93 @@ std::optional<double> DemoWindow::patience() const
     const double now = now_s();
     if (window_.minimised())
         return std::nullopt;
-    if (!shown_)
+    if (!on_screen_)
         return .05; // the window gave no image
-    if (settle_ > 0)
+    if (settle_ > 0 || recording_ || window_.has_key_changes())
         return 0;
     if (state_.playback.playing)
         return std::max(0.0, frame_s - (now - last_step_));
-    if (state_.loading)
-        return .1;
     std::optional<double> wait = quality_.due_in(now);
+    const auto at_most = [&](double seconds) {
+        wait = std::min(wait.value_or(seconds), std::max(0.0, seconds));
+    };
+    if (state_.loading || (stage_ && stage_->pending()) || (compared_ && compared_->pending()))
+        at_most(.03);
     if (const std::optional<double> notice = state_.notices.next_change())
-        wait = std::min(wait.value_or(1e9), std::max(0.0, *notice - now));
+        at_most(*notice - now);
     return wait;
+}
+
+void DemoWindow::step()
+{
+    const double now = now_s(), passed = std::exchange(last_step_, now);
+    finish_loading();
+    if (window_.minimised())
+        return;
+    for (const engine::KeyPress& key : window_.take_keys())
+        if (!ImGui::GetIO().WantTextInput || key.control)
+            press(state_, key);
+    for (const std::filesystem::path& file : window_.take_dropped())
+        open(file);
+    state_.playback.advance(std::min(now - passed, .25));
+    state_.notices.drop_old(now);
+    state_.scale = ui_->scale();
+    tell_facts();
+    if (recording_)
+        record_picture(); // before the interface refers to the picture of it that is replaced
+    ui_->begin(swapchain_->ui());
+    draw_demo(state_);
+    const ImDrawData* drawn = ui_->end();
+    if (!recording_)
+        apply_edits();
+    if (state_.moving || state_.playback.playing || ImGui::GetIO().MouseWheel != 0)
+        quality_.moving(now);
+    const bool rendered = render();
+    if (!window_.take_damaged() && !rendered && !ui_->changed() && on_screen_)
+        return; // what is on the screen is what would be drawn
+    on_screen_ = swapchain_->show(frame(drawn));
+    frames_ += on_screen_;
+    told_idle_ = false;
+}
+
+void DemoWindow::finish_loading()
+{
+    if (!loading_.valid() || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return;
+    settle_ = 2;
+    stage_ = std::make_unique<Stage>(renderer_->device, state_.scene, loading_.get());
+    state_.loading = false;
+    state_.playback.day = state_.scene.days.front();
+    state_.mended = is_published(state_.scene) ? Scene{} : state_.scene;
+    history_ = History(state_.scene);
+    for (const std::string& note : stage_->notes())
+        state_.notices.say(note, now_s());
+}
+
+/// The interface is drawn before the picture it lies over; it learns of what is there.
+void DemoWindow::tell_facts()
+{
+    if (!stage_)
+        return;
+    StageFacts& facts = state_.stage;
+    facts.anchors = stage_->anchors();
+    facts.scene_wounds = stage_->scene_wounds();
+    const passes::Camera camera = stage_->camera();
+    const auto [width, height] = view_pixels();
+    if (width > 0 && height > 0)
+        facts.sight = Sight(stage_->view(camera, std::array<std::uint32_t, 2>{width, height}));
+    facts.head_middle = stage_->head_middle();
+    facts.camera_distance_m = stage_->distance(stage_->scene().camera);
+    facts.pending = stage_->pending() || (compared_ && compared_->pending());
+    state_.can_undo = history_.can_undo();
+    state_.can_redo = history_.can_redo();
+    const std::vector<WoundScene>& wounds = state_.scene.wounds;
+    const double closure =
+        wounds.empty() ? std::numeric_limits<double>::infinity()
+                       : wound::closure_day(
+                             wounds[std::min(state_.selected.value_or(0), wounds.size() - 1)].healing.curve);
+    state_.playback.axis = TimelineAxis(closure, std::ranges::max(state_.scene.days));
+    state_.playback.seek(state_.playback.day);
 }
 
 std::array<std::uint32_t, 2> DemoWindow::view_pixels() const
@@ -112,53 +165,45 @@ std::array<std::uint32_t, 2> DemoWindow::view_pixels() const
             std::uint32_t(std::max(0.0f, std::round(state_.view.height * pixels)))};
 }
 
-void DemoWindow::step()
-{
-    const double now = now_s(), passed = std::exchange(last_step_, now);
-    shown_ = window_.minimised();
-    finish_loading();
-    if (window_.minimised())
-        return;
-    state_.playback.advance(std::min(now - passed, .25));
-    state_.notices.drop_old(now);
-    state_.scale = ui_->scale();
-    ui_->begin(swapchain_->ui());
-    draw_demo(state_);
-    const ImDrawData* drawn = ui_->end();
-    if (state_.moving || state_.playback.playing)
-        quality_.moving(now);
-    const bool rendered = render();
-    const bool damaged = window_.take_damaged();
-    if (!rendered && !ui_->changed() && !damaged && told_idle_) {
-        shown_ = true;
-        return;
-    }
-    shown_ = swapchain_->show(frame(drawn));
-    frames_ += shown_;
-}
-
 bool DemoWindow::render()
 {
     const std::array<std::uint32_t, 2> full = view_pixels();
-    if (!stage_ || full[0] < 16 || full[1] < 16)
+    if (!stage_ || recording_ || full[0] < 16 || full[1] < 16)
         return false;
     const double scale = quality_.scale(now_s());
+    Drawn drawn = draw_picture(1);
+    if (drawn == Drawn::NotNow)
+        drawn = draw_picture(scale);
+    return drawn == Drawn::Now;
+}
+
+/// Asks first whether the picture is there already; a smaller one only when a full one is not.
+DemoWindow::Drawn DemoWindow::draw_picture(double scale)
+{
+    const std::array<std::uint32_t, 2> full = view_pixels();
     const std::array<std::uint32_t, 2> size{std::max(16u, std::uint32_t(std::lround(full[0] * scale))),
                                             std::max(16u, std::uint32_t(std::lround(full[1] * scale)))};
     engine::Graph graph;
-    const passes::FrameImages images = stage_->declare(graph, stage_->wounds_on(state_.playback.day),
-                                                       stage_->camera(), state_.scene.shading, size);
-    graph.present(images.picture);
-    const std::string name = graph.images[images.picture.index].name;
-    const engine::FrameResult result = executor_->run(graph);
-    picture_ = executor_->presented(name);
+    const double day = state_.playback.day;
+    const engine::ImageId picture =
+        compared_ ? declare_split(graph, *stage_, day, *compared_, state_.compare == Compare::Day0 ? 0 : day,
+                                  size, state_.divider)
+                  : stage_->declare(graph, day, size).picture;
+    graph.present(picture);
+    if (picture_ != VK_NULL_HANDLE && renderer_->executor.up_to_date(graph))
+        return Drawn::Already;
+    if (scale == 1 && quality_.scale(now_s()) < 1)
+        return Drawn::NotNow; // something moves
+    const engine::FrameResult result = renderer_->executor.run(graph);
+    picture_ = renderer_->executor.presented(graph.images[picture.index].name);
     picture_size_ = size;
     quality_.rendered(scale, result.frame_ms);
     state_.passes = result.passes;
     state_.frame_ms = result.frame_ms;
     state_.render_scale = scale;
     ++pictures_;
-    return true;
+    settle_ = std::max(settle_, 1); // the panel shows what it cost
+    return Drawn::Now;
 }
 
 engine::WindowFrame DemoWindow::frame(const ImDrawData* ui) const
@@ -178,30 +223,41 @@ engine::WindowFrame DemoWindow::frame(const ImDrawData* ui) const
 
 void DemoWindow::tell_idle()
 {
-    if (std::exchange(told_idle_, true))
+    if (std::exchange(told_idle_, true) || !stage_)
         return;
     if (!options_.screenshot.empty())
         save_screenshot();
     if (!events_.wanted())
         return;
+    const float pixels = ui_->pixels_per_unit();
     const auto box = [&](const Rectangle& r) {
-        const float pixels = ui_->pixels_per_unit();
         return nlohmann::json{r.left * pixels, r.top * pixels, r.width * pixels, r.height * pixels};
     };
+    nlohmann::json wounds = nlohmann::json::array(), notices = nlohmann::json::array();
+    for (std::size_t i = 0; i < stage_->anchors().size(); ++i)
+        if (const auto at = state_.stage.sight.project(stage_->anchors()[i].centre))
+            wounds.push_back({{"wound", stage_->scene_wounds()[i]},
+                              {"at",
+                               {(state_.view.left + at->x * state_.view.width) * pixels,
+                                (state_.view.top + at->y * state_.view.height) * pixels}}});
+    for (const Notice& notice : state_.notices.list())
+        notices.push_back(notice.text);
     events_.tell("idle", {{"frames", frames_},
                           {"pictures", pictures_},
                           {"day", state_.playback.day},
                           {"window", window_.size()},
                           {"view", box(state_.view)},
-                          {"timeline", box(state_.timeline)}});
+                          {"timeline", box(state_.timeline)},
+                          {"wounds", wounds},
+                          {"selected", state_.selected ? nlohmann::json(*state_.selected) : nullptr},
+                          {"dialog", int(state_.dialog)},
+                          {"notices", notices}});
 }
 
 void DemoWindow::save_screenshot()
 {
-    ImGui::GetDrawData(); // of the last step
     engine::write_png(options_.screenshot, swapchain_->picture_of(frame(ImGui::GetDrawData())));
     state_.wishes.quit = true;
-    engine::Window::wake();
 }
 
 } // namespace app

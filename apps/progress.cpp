@@ -17,7 +17,7 @@ std::string duration_text(double seconds)
 
 } // namespace
 
-Progress::Progress() : terminal_(::isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(bool shown) : terminal_(shown && ::isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress()
 {

@@ -10,8 +10,8 @@ namespace app {
 class Progress
 {
   public:
-    /// Shown on stderr, when that is a terminal.
-    Progress();
+    /// Shown on stderr, when that is a terminal and `shown`.
+    explicit Progress(bool shown = true);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;

@@ -72,6 +72,8 @@ void reflect(const ReflectOptions& options, std::ostream& out)
     if (channels.size() == wavelength_count) {
         const Color color = linear_rgb(channels);
         json["linear_rgb"] = {color[0], color[1], color[2]};
+        const Lab lab = lab_from_linear(color);
+        json["cielab"] = {lab.l, lab.a, lab.b}; // D65, 2 degrees
     }
     if (options.rung == Rung::Published)
         json["outside_domain"] = domain_report(tissue);
@@ -129,6 +131,9 @@ void add_reflect_command(CLI::App& app)
     add_light_options(*command, *options);
     command->add_flag("--check", *check,
                       "Compare monte-carlo and adding-doubling with published values and each other");
+    command->footer("Example: cicatrix reflect tissue.json --model adding-doubling\ntissue.json: {\"unit\": "
+                    "\"1/mm\", \"layers\": [{\"name\": \"dermis\", \"sigma_a\": [0.1, 0.3, 0.4], "
+                    "\"sigma_s_reduced\": [1.5, 1.9, 2.2], \"n\": 1.4, \"thickness_mm\": \"inf\"}]}");
     command->callback([options, check] {
         if (isatty(STDERR_FILENO))
             options->rung_options.progress = [](double share) {

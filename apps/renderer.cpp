@@ -65,16 +65,6 @@ cv::Mat with_backdrop(const cv::Mat& premultiplied, const passes::Canvas& canvas
     return result;
 }
 
-/// Puts a tile's image where it belongs in the whole; what reaches beyond is dropped.
-void place(cv::Mat& whole, const cv::Mat& image, const passes::Canvas& tile)
-{
-    const cv::Size picture(int(tile.picture[0]), int(tile.picture[1]));
-    whole.create(picture, image.type()); // the first time only
-    const cv::Rect inside =
-        cv::Rect({int(tile.corner[0]), int(tile.corner[1])}, image.size()) & cv::Rect({0, 0}, picture);
-    image(cv::Rect({0, 0}, inside.size())).copyTo(whole(inside));
-}
-
 } // namespace
 
 void fail_on_validation(const engine::Device& device)
@@ -88,6 +78,15 @@ void fail_on_validation(const engine::Device& device)
 std::vector<passes::Canvas> canvases(const DrawOptions& options)
 {
     return passes::tiles({options.size, options.transparent}, options.tile);
+}
+
+void place(cv::Mat& whole, const cv::Mat& image, const passes::Canvas& tile)
+{
+    const cv::Size picture(int(tile.picture[0]), int(tile.picture[1]));
+    whole.create(picture, image.type()); // the first time only
+    const cv::Rect inside =
+        cv::Rect({int(tile.corner[0]), int(tile.corner[1])}, image.size()) & cv::Rect({0, 0}, picture);
+    image(cv::Rect({0, 0}, inside.size())).copyTo(whole(inside));
 }
 
 Drawing draw(Renderer& renderer, const Stage& stage, const Shot& shot, const DrawOptions& options)

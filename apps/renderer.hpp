@@ -58,6 +58,10 @@ struct Drawing
 /// The tiles of a picture, whole pictures being one of them.
 std::vector<passes::Canvas> canvases(const DrawOptions& options);
 
+/// Puts a tile's image where it belongs in the whole, which is made with the first; what reaches beyond is
+/// dropped.
+void place(cv::Mat& whole, const cv::Mat& image, const passes::Canvas& tile);
+
 /// Throws cicatrix::InputError when the device fails.
 Drawing draw(Renderer& renderer, const Stage& stage, const Shot& shot, const DrawOptions& options);
 

@@ -135,14 +135,10 @@ LightScene read_light(const json& object, const std::string& where)
 
 wound::Rung read_rung(Fields& fields, wound::Rung fallback)
 {
-    const std::string chosen = fields.choice(
-        "reflectance_model", std::string(name(fallback)),
-        {"published", "clamped", "exponential", "two-stream-paper", "two-stream", "calibrated"});
-    for (const wound::Rung rung : {wound::Rung::Published, wound::Rung::Clamped, wound::Rung::Exponential,
-                                   wound::Rung::TwoStreamPaper, wound::Rung::TwoStream})
-        if (name(rung) == chosen)
-            return rung;
-    return wound::Rung::Calibrated;
+    std::vector<std::string> names;
+    for (const wound::Rung rung : wound::all_rungs())
+        names.emplace_back(name(rung));
+    return wound::rung_named(fields.choice("reflectance_model", std::string(name(fallback)), names));
 }
 
 /// An enum by the names of its values, in order.
@@ -187,6 +183,8 @@ std::vector<double> read_days(const json& value, const std::string& where)
 {
     if (value.is_string())
         return parse_days(value.get<std::string>(), where);
+    if (value.is_number())
+        return parse_days(value.dump(), where);
     if (!value.is_array() || value.empty())
         throw cicatrix::InputError(where, "is " + value.dump(), "write \"0:30:3\" or an array of days");
     std::string text;
@@ -287,8 +285,12 @@ json to_json(const Scene& scene)
 
 Scene read_scene(const std::filesystem::path& path)
 {
-    const json root = read_json(path);
-    const std::string file = path.string() + ": ";
+    return scene_of(read_json(path), path, path.string());
+}
+
+Scene scene_of(const json& root, const std::filesystem::path& path, const std::string& where)
+{
+    const std::string file = where + ": ";
     Fields fields(root, file);
     Scene scene;
     scene.head = beside(path, fields.text("head", ""));

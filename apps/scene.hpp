@@ -93,6 +93,9 @@ struct Scene
 /// Reads a scene; files inside are relative to the scene's folder. Throws cicatrix::InputError naming file
 /// and field.
 Scene read_scene(const std::filesystem::path& path);
+/// The same of JSON that was read or made elsewhere: files inside are relative to the folder of `path`, and
+/// messages begin with `where`.
+Scene scene_of(const nlohmann::json& root, const std::filesystem::path& path, const std::string& where);
 /// The scene as JSON, all fields spelled out, as capture.json records it; read_scene reads it back.
 nlohmann::json to_json(const Scene& scene);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/bake.hpp"
+#include "passes/reflectance_table.hpp"
 #include "passes/skin_under.hpp"
 #include "passes/split.hpp"
 #include "passes/surface.hpp"
@@ -18,6 +19,8 @@ namespace {
 
 constexpr std::size_t table_rows =
     32; // as wide as high: the smallest table within .002 of direct evaluation (docs/optics.md)
+
+const wound::RungOptions scene_rung_options{.angles = 4, .photons = 2000}; // photons: per wavelength
 
 glm::dvec3 face_middle(const passes::FaceFrame& face)
 {
@@ -264,6 +267,7 @@ void Stage::place_wound(Set& set, std::size_t index, Fit& fit, const std::string
 passes::LutTissue Stage::lut_of(const Set& set, const wound::Healing& healing) const
 {
     if (!set_.wounds.empty() && set.scene.tissue == set_.scene.tissue &&
+        set.scene.reflectance_model == set_.scene.reflectance_model &&
         last_day(set.scene) == last_day(set_.scene))
         for (std::size_t i = 0; i < set_.wounds.size(); ++i)
             if (set_.placed[set_.scene_wounds[i]].healing == healing)
@@ -271,10 +275,15 @@ passes::LutTissue Stage::lut_of(const Set& set, const wound::Healing& healing) c
     return make_lut(set, healing);
 }
 
-passes::LutTissue Stage::make_lut(const Set& set, const wound::Healing& healing)
+passes::LutTissue Stage::make_lut(const Set& set, const wound::Healing& healing) const
 {
     const passes::LutRows rows = passes::lut_rows(set.tissue, healing, table_rows, last_day(set.scene));
-    return passes::lut_tissue(rows.open, last_day(set.scene));
+    passes::LutTissue tissue = passes::lut_tissue(rows.days, last_day(set.scene));
+    if (set.scene.reflectance_model > wound::Rung::Calibrated) // the shader does not know it
+        tissue.table = std::make_shared<engine::Texture>(passes::upload_reflectance_table(
+            *device_, kept_table(rows, table_rows, set.scene.reflectance_model, scene_rung_options),
+            "reflectance table"));
+    return tissue;
 }
 
 void Stage::set_tissue(const wound::HealingTissue& tissue)

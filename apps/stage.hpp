@@ -135,7 +135,7 @@ class Stage
     Set make(const Scene& scene) const;
     void place_wounds(Set& set) const;
     void place_wound(Set& set, std::size_t index, Fit& fit, const std::string& name, bool exact) const;
-    static passes::LutTissue make_lut(const Set& set, const wound::Healing& healing);
+    passes::LutTissue make_lut(const Set& set, const wound::Healing& healing) const;
     passes::LutTissue lut_of(const Set& set, const wound::Healing& healing) const;
     passes::FrameImages declare(engine::Graph& graph, const passes::FrameInput& input) const;
     void accept(Set set);

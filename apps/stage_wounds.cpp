@@ -222,7 +222,8 @@ std::shared_ptr<const LoadedHead> load_head(const std::filesystem::path& chosen)
     if (chosen.empty() && !std::filesystem::exists(file))
         throw cicatrix::InputError(
             file.string(), "the default head has not been made yet",
-            "run ./run setup (needs the network once), or give a head of your own with --head FILE.glb");
+            "make it once with cicatrix-fetch-head (from a checkout: ./run setup), or give one of your own "
+            "with --head FILE.glb");
     auto head = std::make_shared<LoadedHead>();
     head->key = file_key(file);
     auto model = std::make_shared<engine::Model>(engine::load_model(file));

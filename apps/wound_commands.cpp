@@ -22,6 +22,7 @@ struct FitCommand
     std::string table;
     std::filesystem::path out = "out/fit";
     bool robust = false;
+    std::string mean = "ratios";
 };
 
 void print_fit(const wound::SeriesFit& fit)
@@ -44,7 +45,8 @@ void fit(const FitCommand& command)
     make_folder(command.out);
     const std::vector<wound::SeriesFit> fits =
         wound::fit_table(wound::read_area_table(std::filesystem::path(command.table)), command.table,
-                         {.robust = command.robust});
+                         {.robust = command.robust,
+                          .mean = command.mean == "areas" ? wound::MeanOf::areas : wound::MeanOf::ratios});
     for (const wound::SeriesFit& one : fits)
         print_fit(one);
     engine::write_png(command.out / "fit.png", wound::draw_fit(fits.back())); // the mean, or the only series
@@ -107,6 +109,11 @@ void add_fit_command(CLI::App& program)
         ->type_name("DIR");
     command->add_flag("--robust", options->robust,
                       "One bad measurement does not pull the curve (Huber's loss)");
+    command
+        ->add_option("--mean", options->mean,
+                     "Of several wounds: the mean of their ratios, or of their areas over that on day 0")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"ratios", "areas"}));
     command->footer("Example: cicatrix fit areas.csv --out fit\nPut the table into a scene: \"healing\": "
                     "{\"areas\": \"areas.csv\"}");
     command->callback([options] { fit(*options); });

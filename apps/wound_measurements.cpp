@@ -1,5 +1,7 @@
 #include "apps/wound_measurements.hpp"
 
+#include "apps/warp_cost.hpp"
+
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
@@ -55,11 +57,29 @@ void measure_segmentation(const std::string& photo, const std::string& mask)
 
 void add_warps_command(CLI::App& program)
 {
-    auto masks = std::make_shared<std::vector<std::string>>();
+    struct Options
+    {
+        std::vector<std::string> masks;
+        bool shader = false;
+        std::string device;
+    };
+    auto options = std::make_shared<Options>();
     CLI::App* command =
         program.add_subcommand("warps", "Print error, area, folds and cost of every warp (docs/warp.md)");
-    command->add_option("masks", *masks, "Masks whose borders are measured too")->type_name("MASK");
-    command->callback([masks] { measure_warps(*masks); });
+    command->add_option("masks", options->masks, "Masks whose borders are measured too")->type_name("MASK");
+    command->add_flag("--shader", options->shader,
+                      "Measure the compute passes on a Vulkan device instead, by rung and by region");
+    command
+        ->add_option("--device", options->device,
+                     "Vulkan device by index or part of its name; also CICATRIX_DEVICE")
+        ->type_name("NAME|INDEX");
+    command->footer("Example: cicatrix warps --shader");
+    command->callback([options] {
+        if (!options->shader)
+            return measure_warps(options->masks);
+        Renderer renderer({.device = options->device});
+        measure_warp_cost(renderer);
+    });
 }
 
 void add_segmentation_command(CLI::App& program)
@@ -71,6 +91,7 @@ void add_segmentation_command(CLI::App& program)
         ->required()
         ->type_name("PHOTO");
     command->add_option("mask", files->second, "The wound white on black")->required()->type_name("MASK");
+    command->footer("Example: cicatrix segmentation photo.png mask.png");
     command->callback([files] { measure_segmentation(files->first, files->second); });
 }
 

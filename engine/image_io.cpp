@@ -85,6 +85,13 @@ void write_png(const std::filesystem::path& path, const cv::Mat1b& gray)
     write_encoded(path, encode_png(gray));
 }
 
+void write_exr(const std::filesystem::path& path, const cv::Mat1f& values)
+{
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(".exr", values, bytes, {cv::IMWRITE_EXR_TYPE, cv::IMWRITE_EXR_TYPE_FLOAT});
+    write_encoded(path, bytes);
+}
+
 void write_exr(const std::filesystem::path& path, const cv::Mat3f& rgb, ExrDepth depth)
 {
     write_exr_converted(path, rgb, cv::COLOR_RGB2BGR, depth);

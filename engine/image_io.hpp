@@ -27,6 +27,8 @@ enum class ExrDepth : std::uint8_t
 };
 void write_exr(const std::filesystem::path& path, const cv::Mat3f& rgb, ExrDepth depth = ExrDepth::Float);
 void write_exr(const std::filesystem::path& path, const cv::Mat4f& rgba, ExrDepth depth = ExrDepth::Float);
+/// One channel, "Y", of any quantity, 32-bit float.
+void write_exr(const std::filesystem::path& path, const cv::Mat1f& values);
 
 /// The two halves of write_atomically that need no template.
 std::filesystem::path temporary_beside(const std::filesystem::path& path);

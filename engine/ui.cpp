@@ -1,5 +1,7 @@
 #include "engine/ui.hpp"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <array>
 #include <filesystem>
 #include <imgui.h>
@@ -17,8 +19,9 @@ constexpr float text_size = 15; // pixels at scale 1
 std::filesystem::path find_font()
 {
     for (const char* path :
-         {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-          "/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
+         {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+          "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
+          "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
           "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"})
         if (std::filesystem::exists(path))
             return path;
@@ -59,6 +62,9 @@ void set_look(ImGuiStyle& style)
     set(ImGuiCol_SliderGrab, .8f, .45f, .37f);
     set(ImGuiCol_SliderGrabActive, .93f, .55f, .45f);
     set(ImGuiCol_Separator, .25f, .255f, .27f);
+    set(ImGuiCol_TitleBgActive, .2f, .205f, .22f);
+    set(ImGuiCol_PlotHistogram, .8f, .45f, .37f);
+    set(ImGuiCol_ModalWindowDimBg, .03f, .03f, .035f, .6f);
     set(ImGuiCol_TextSelectedBg, .62f, .33f, .28f, .6f);
 }
 
@@ -96,6 +102,7 @@ Ui::Ui(Window& shown, double scale_wanted) : window(shown), forced_scale(scale_w
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     io.BackendRendererName = "cicatrix";
     ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
+    window.listen_to_keys(); // this version of ImGui misses a key that is pressed and released within a frame
     set_scale(wanted_scale());
 }
 
@@ -135,8 +142,21 @@ void Ui::set_scale(float scale)
     }
 }
 
+void Ui::tell_keys()
+{
+    ImGuiIO& io = ImGui::GetIO();
+    for (const KeyChange& change : window.take_key_changes())
+        if (std::size_t(change.key) < std::size(io.KeysDown))
+            io.KeysDown[change.key] = change.down;
+    const auto either = [&](int left, int right) { return io.KeysDown[left] || io.KeysDown[right]; };
+    io.KeyCtrl = either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
+    io.KeyShift = either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+    io.KeyAlt = either(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
+}
+
 void Ui::begin(UiRenderer& renderer)
 {
+    tell_keys();
     ImGui_ImplGlfw_NewFrame();
     if (const float scale = wanted_scale(); scale != current_scale)
         set_scale(scale);

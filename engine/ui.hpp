@@ -30,6 +30,7 @@ class Ui
     float scale() const { return current_scale; }
 
   private:
+    void tell_keys();
     float wanted_scale() const;
     void set_scale(float scale);
 

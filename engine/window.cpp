@@ -2,6 +2,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <algorithm>
 #include <cstdio>
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -98,6 +99,7 @@ void Window::install_callbacks()
     glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { self(w).damaged = true; });
     glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { self(w).damaged = true; });
     glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { self(w).damaged = true; });
+    listen_to_keys();
     glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
         for (int i = 0; i < count; ++i)
             self(w).dropped.emplace_back(paths[i]);
@@ -181,6 +183,40 @@ void Window::wake()
 bool Window::take_damaged()
 {
     return std::exchange(damaged, false);
+}
+
+void Window::listen_to_keys()
+{
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+        if (action != GLFW_REPEAT && key >= 0)
+            self(w).key_changes.push_back({key, action == GLFW_PRESS});
+        if (action == GLFW_RELEASE)
+            return;
+        // A letter by what it writes, not by its place: Ctrl+Z is where the user's keyboard has its Z.
+        const char* name = glfwGetKeyName(key, scancode);
+        if (name && name[0] >= 'a' && name[0] <= 'z' && name[1] == 0)
+            key = name[0] - 'a' + GLFW_KEY_A;
+        self(w).keys.push_back(
+            {key, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_ALT) != 0});
+    });
+}
+
+std::vector<KeyChange> Window::take_key_changes()
+{
+    std::vector<KeyChange> taken;
+    for (const KeyChange& change : key_changes) {
+        const auto same = [&](const KeyChange& earlier) { return earlier.key == change.key && earlier.down; };
+        if (!change.down && std::ranges::any_of(taken, same))
+            break;
+        taken.push_back(change);
+    }
+    key_changes.erase(key_changes.begin(), key_changes.begin() + std::ptrdiff_t(taken.size()));
+    return taken;
+}
+
+std::vector<KeyPress> Window::take_keys()
+{
+    return std::exchange(keys, {});
 }
 
 std::vector<std::filesystem::path> Window::take_dropped()

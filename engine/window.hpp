@@ -17,6 +17,19 @@ struct GLFWwindow;
 
 namespace engine {
 
+struct KeyPress
+{
+    int key = 0; // GLFW_KEY_..., a place on a US keyboard; of a letter, what it writes
+    bool control = false, shift = false, alt = false;
+};
+
+/// A key went down or up.
+struct KeyChange
+{
+    int key = 0; // GLFW_KEY_...
+    bool down = false;
+};
+
 class Window
 {
   public:
@@ -52,6 +65,14 @@ class Window
     /// Whether what the window shows must be drawn anew: its size changed, or another window no longer hides
     /// it. Asking clears it.
     bool take_damaged();
+    /// Keys pressed or repeated since the last call, in order. None is lost, however long a frame takes.
+    std::vector<KeyPress> take_keys();
+    /// The changes since the last call, up to the first key that would go up in the frame in which it went
+    /// down; what is left is for the next frame.
+    std::vector<KeyChange> take_key_changes();
+    bool has_key_changes() const { return !key_changes.empty(); }
+    /// Receives keys again after somebody else has asked GLFW for them.
+    void listen_to_keys();
     /// Files dropped on the window since the last call.
     std::vector<std::filesystem::path> take_dropped();
 
@@ -63,6 +84,8 @@ class Window
 
     GLFWwindow* window = nullptr;
     bool damaged = true;
+    std::vector<KeyPress> keys;
+    std::vector<KeyChange> key_changes;
     std::vector<std::filesystem::path> dropped;
 };
 

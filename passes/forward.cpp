@@ -7,7 +7,6 @@
 
 #include "passes/shading.hpp"
 #include "shaders/shared/part.h"
-#include "wound/healthy_skin.hpp"
 
 namespace passes {
 namespace {
@@ -21,7 +20,6 @@ shared::WoundFrame wound_frame(const PlacedWound& wound)
 {
     const Anchor& anchor = wound.anchor;
     const wound::WoundDay& today = *wound.today;
-    const cv::Vec3f blood = wound::blood_absorbance;
     return {.centre = to_vec3(anchor.centre),
             .half_width = float(anchor.half_width_m),
             .right = to_vec3(anchor.right),
@@ -34,9 +32,9 @@ shared::WoundFrame wound_frame(const PlacedWound& wound)
             .bed_recovery = float(today.bed_recovery),
             .border_recovery = float(today.border_recovery),
             .lut = wound.axes,
-            .new_skin =
-                glm::exp(-1.4f * float(today.phase.pink) * shared::vec3(blood[0], blood[1], blood[2])),
-            .epithelium = today.in_phases ? 1.0f : 0.0f};
+            .epithelium = float(today.border_softness),
+            .pore_loss = float(today.scar.pore_loss),
+            .sheen = float(today.scar.sheen)};
 }
 
 shared::Part part_params(const HeadPart& part)

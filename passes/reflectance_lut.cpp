@@ -52,12 +52,12 @@ LutRows lut_rows(const wound::HealingTissue& tissue, const wound::Healing& heali
     LutRows result;
     const double closed = wound::closure_day(healing.curve);
     for (std::size_t row = 0; row < rows; ++row) {
-        const double day = lut_row_day(row, rows, last_day),
-                     depth = wound::healing_at(healing, day).depth_scale;
-        result.open.push_back(wound::open_bed(tissue, day, depth));
-        result.covered.push_back(wound::covered_bed(tissue, day, depth, closed));
+        const double day = lut_row_day(row, rows, last_day);
+        result.days.push_back(wound::open_bed(tissue, day, wound::healing_at(healing, day).depth_scale));
     }
-    result.axes = {static_cast<float>(deepest_injury_mm(result.open.front().intact)),
+    for (std::size_t row = 0; row < rows; ++row)
+        result.days.push_back(wound::covered_bed(tissue, lut_row_day(row, rows, last_day), closed));
+    result.axes = {static_cast<float>(deepest_injury_mm(result.days.front().intact)),
                    static_cast<float>(last_day)};
     return result;
 }
@@ -88,7 +88,9 @@ LutTissue lut_tissue(std::span<const wound::TissueDay> rows, double last_day)
 ReflectanceLut add_reflectance_lut(engine::Graph& graph, std::string_view name, const LutTissue& tissue,
                                    wound::Rung rung, std::uint32_t width)
 {
-    assert(rung <= wound::Rung::Calibrated); // beyond it: reflectance_table.hpp
+    if (tissue.table)
+        return {graph.import(name, *tissue.table)};
+    assert(rung <= wound::Rung::Calibrated);
     const auto height = static_cast<std::uint32_t>(tissue.days.size());
     // Half floats: every device filters them linearly; their error, 2.4e-4 of the value, is below the table's
     // own.

@@ -1,11 +1,13 @@
 // Bakes the diffuse reflectance of healing tissue into a table over injury depth and day, which the forward
 // pass samples through lut_uv (shaders/shared/reflectance_lut.h).
 #pragma once
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "engine/graph.hpp"
+#include "engine/texture.hpp"
 #include "shaders/shared/reflectance_lut.h"
 #include "wound/healing.hpp"
 #include "wound/reflectance.hpp"
@@ -22,32 +24,33 @@ struct LutTissue
     std::vector<shared::mat3> weights;    // of every band: its channels -> linear RGB
     std::vector<shared::LutDay> days;     // one per row
     shared::LutParameters parameters;
+    /// The finished table, of a rung that the shader does not know (reflectance_table.hpp). None: it is baked
+    /// by a compute pass.
+    std::shared_ptr<const engine::Texture> table;
 };
 
 /// Day of a row, for those who fill `rows`.
 double lut_row_day(std::size_t row, std::size_t rows, double last_day);
 
-/// The tissue of a healing wound on every row's day, for the open bed and for what new epithelium has
-/// covered.
+/// The tissue of a healing wound on every row's day, as layers.
 struct LutRows
 {
-    std::vector<wound::TissueDay> open, covered;
+    std::vector<wound::TissueDay> days; // `rows` of the open bed, then as many of what is covered
     shared::LutAxes axes;
 };
 LutRows lut_rows(const wound::HealingTissue& tissue, const wound::Healing& healing, std::size_t rows,
                  double last_day);
 
-/// `rows`: the tissue on lut_row_day(0), (1), ..., with three channels and the same number of intact layers
-/// each.
+/// `rows`: LutRows::days, all with the same number of channels and of intact layers.
 LutTissue lut_tissue(std::span<const wound::TissueDay> rows, double last_day);
 
 struct ReflectanceLut
 {
-    engine::ImageId reflectance; // linear RGB, >= 0 and finite; u = injury depth, v = day
+    engine::ImageId reflectance; // linear RGB, >= 0 and finite; u = injury depth, v = part and day
 };
 
-/// `rung`: one that the shader knows, up to Calibrated; others are computed on the CPU
-/// (reflectance_table.hpp). Adds one compute pass `name`, which the graph skips while the tissue stands.
+/// `rung`: one that the shader knows, up to Calibrated, unless the tissue brings its table. Adds one compute
+/// pass `name`, which the graph skips while the tissue stands; with a table none.
 /// Width: texels over depth.
 ReflectanceLut add_reflectance_lut(engine::Graph& graph, std::string_view name, const LutTissue& tissue,
                                    wound::Rung rung, std::uint32_t width = 32);

@@ -15,7 +15,7 @@ namespace passes {
 
 namespace {
 
-constexpr std::uint64_t table_version = 1; // raise when a rung's result or the mapping changes
+constexpr std::uint64_t table_version = 2; // raise when a rung's result or the mapping changes
 
 // FNV-1a over the bit patterns of everything a table depends on.
 class Key
@@ -108,9 +108,11 @@ cv::Mat3f bake_reflectance_table(std::span<const wound::TissueDay> rows, std::ui
     cv::Mat3f table(static_cast<int>(rows.size()), columns);
     const auto deepest = static_cast<float>(deepest_injury_mm(rows.front().intact));
     std::atomic<int> next{0};
+    const std::thread::id caller = std::this_thread::get_id();
     const auto work = [&] {
         wound::RungOptions alone = options;
         alone.threads = 1;
+        alone.progress = {};
         for (int i; (i = next++) < count;) {
             const int y = i / columns, x = i % columns;
             const float injury =
@@ -119,6 +121,8 @@ cv::Mat3f bake_reflectance_table(std::span<const wound::TissueDay> rows, std::ui
             const wound::Color color = wound::tissue_color(wound::layers_at(day, injury), rung, alone);
             for (int c = 0; c < 3; ++c) // as displayable() in shaders/lib/reflectance.glsl
                 table(y, x)[c] = color[c] > 0 ? static_cast<float>(std::min(color[c], 65504.0)) : 0.0f;
+            if (options.progress && std::this_thread::get_id() == caller)
+                options.progress(static_cast<double>(i + 1) / count);
         }
     };
     std::vector<std::jthread> threads;
@@ -153,10 +157,11 @@ engine::Texture upload_reflectance_table(const engine::Device& device, const cv:
     return engine::Texture(device, half, engine::Encoding::Linear, false, name);
 }
 
-wound::Color sample_table(const cv::Mat3f& table, const shared::LutAxes& axes, double injury_mm, double day)
+wound::Color sample_table(const cv::Mat3f& table, const shared::LutAxes& axes, shared::uint part,
+                          double injury_mm, double day)
 {
     const shared::vec2 size(static_cast<float>(table.cols), static_cast<float>(table.rows));
-    const shared::vec2 uv = lut_uv(axes, static_cast<float>(injury_mm), static_cast<float>(day), size);
+    const shared::vec2 uv = lut_uv(axes, part, static_cast<float>(injury_mm), static_cast<float>(day), size);
     const double x = uv.x * size.x - .5, y = uv.y * size.y - .5;
     const int x0 = std::clamp(static_cast<int>(std::floor(x)), 0, table.cols - 1),
               x1 = std::min(x0 + 1, table.cols - 1);

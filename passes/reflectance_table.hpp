@@ -11,6 +11,7 @@
 namespace passes {
 
 /// The texels that reflectance_lut.comp would write. `rows` as for lut_tissue(); all cores work.
+/// options.progress is told the finished share of the table, by the calling thread.
 cv::Mat3f bake_reflectance_table(std::span<const wound::TissueDay> rows, std::uint32_t width,
                                  wound::Rung rung, const wound::RungOptions& options = {});
 
@@ -20,11 +21,12 @@ cv::Mat3f cached_reflectance_table(const std::filesystem::path& folder,
                                    std::span<const wound::TissueDay> rows, std::uint32_t width,
                                    wound::Rung rung, const wound::RungOptions& options = {});
 
-/// Half floats, as the shader stores them. Import its external() image in place of add_reflectance_lut().
+/// Half floats, as the shader stores them, for LutTissue::table.
 engine::Texture upload_reflectance_table(const engine::Device& device, const cv::Mat3f& table,
                                          const std::string& name);
 
 /// What bilinear sampling through lut_uv() returns.
-wound::Color sample_table(const cv::Mat3f& table, const shared::LutAxes& axes, double injury_mm, double day);
+wound::Color sample_table(const cv::Mat3f& table, const shared::LutAxes& axes, shared::uint part,
+                          double injury_mm, double day);
 
 } // namespace passes

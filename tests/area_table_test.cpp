@@ -76,6 +76,15 @@ TEST(AreaTable, ReadersAreAveragedAndRowsThatAllImaginedLeftOut)
     EXPECT_THAT(mean.ratios, ElementsAre(1, .375));
 }
 
+TEST(AreaTable, TheMeanOfAreasGivesALargeWoundMoreSay)
+{
+    const auto table = read("wound,day,area\na,0,30\na,4,24\nb,0,10\nb,4,2\nb,8,1\n");
+    EXPECT_THAT(wound::mean_series(table).ratios,
+                ElementsAre(1, DoubleNear(.5, 1e-12), DoubleNear(.1, 1e-12)));
+    EXPECT_THAT(wound::mean_series(table, wound::MeanOf::areas).ratios,
+                ElementsAre(1, DoubleNear(13. / 20, 1e-12), DoubleNear(1. / 20, 1e-12)));
+}
+
 TEST(AreaTable, WeightsWeightAndZeroLeavesOut)
 {
     const auto table = read("day,area,weight\n0,10,1\n1,8,3\n1,4,1\n2,99,0\n");

@@ -51,21 +51,28 @@ TEST(ReflectanceTable, SamplingInterpolatesWithinThePromisedError)
 {
     const HealingTissue light = skin(SkinTone::Light);
     const passes::LutRows rows = passes::lut_rows(light, Healing{}, 64, 60);
-    const cv::Mat3f table = passes::bake_reflectance_table(rows.open, 64, Rung::Calibrated);
+    const cv::Mat3f table = passes::bake_reflectance_table(rows.days, 64, Rung::Calibrated);
     double sum = 0;
     int count = 0;
-    for (double depth : {0., .03, .1, .15, .4, .9, 1.7, 3.})
-        for (double day : {0., .7, 2.5, 6., 13., 21., 29., 47.}) {
-            const Color direct =
-                tissue_color(layers_at(app::open_bed_on(light, day), depth), Rung::Calibrated);
-            const double error = cv::norm(passes::sample_table(table, rows.axes, depth, day) - direct);
-            sum += error * error;
-            ++count;
-        }
+    for (shared::uint part : {shared::LUT_OPEN, shared::LUT_COVERED})
+        for (double depth : {0., .03, .1, .15, .4, .9, 1.7, 3.})
+            for (double day : {0., .7, 2.5, 6., 13., 21., 29., 47.}) {
+                const Color direct =
+                    tissue_color(layers_at(app::tissue_on(light, part, day), depth), Rung::Calibrated);
+                const double error =
+                    cv::norm(passes::sample_table(table, rows.axes, part, depth, day) - direct);
+                sum += error * error;
+                ++count;
+            }
     EXPECT_LT(std::sqrt(sum / count / 3), .004);
-    // Exact on the nodes.
-    const Color corner = tissue_color(layers_at(rows.open[63], rows.axes.deepest_mm), Rung::Calibrated);
-    EXPECT_LT(cv::norm(passes::sample_table(table, rows.axes, 1e9, 1e9) - corner), 1e-6);
+    // Exact on the nodes, those included where the two parts meet.
+    for (const auto& [part, day, row] : {std::tuple(shared::LUT_OPEN, 1e9, 63u),
+                                         {shared::LUT_COVERED, 0., 64u},
+                                         {shared::LUT_COVERED, 1e9, 127u}})
+    {
+        const Color corner = tissue_color(layers_at(rows.days[row], rows.axes.deepest_mm), Rung::Calibrated);
+        EXPECT_LT(cv::norm(passes::sample_table(table, rows.axes, part, 1e9, day) - corner), 1e-6) << row;
+    }
 }
 
 TEST_F(TableCache, IsReadBackAndKeyedByAllThatMatters)
@@ -104,7 +111,7 @@ using UploadedTable = gpu::Test;
 
 TEST_F(UploadedTable, IsWhatTheShaderWouldHaveBaked)
 {
-    const std::vector<TissueDay> rows = passes::lut_rows(skin(SkinTone::Medium), Healing{}, 8, 60).covered;
+    const std::vector<TissueDay> rows = passes::lut_rows(skin(SkinTone::Medium), Healing{}, 4, 60).days;
     const cv::Mat3f table = passes::bake_reflectance_table(rows, 8, Rung::TwoStream);
     engine::Executor executor(gpu::device(), gpu::shaders());
     engine::Graph graph;

@@ -1,7 +1,11 @@
-// What the demo's user is doing, without a window: time running, the size of pictures while something moves, messages.
+// What the demo's user is doing, without a window: time running, the size of pictures while something moves,
+// messages.
 #include "apps/demo_session.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <gmock/gmock.h>
+#include <limits>
 
 namespace {
 
@@ -10,14 +14,47 @@ using testing::ElementsAre;
 using testing::Field;
 using testing::SizeIs;
 
+TEST(TimelineAxis, IsEvenWhileTheWoundIsOpenAndDenserForTheScar)
+{
+    const TimelineAxis axis(25, 10);
+    EXPECT_EQ(axis.day_at(0), 0);
+    EXPECT_GT(axis.last_day(), 25 + 360);
+    EXPECT_NEAR(axis.day_at(1), axis.last_day(), 1e-9);
+    EXPECT_NEAR(axis.fraction_of(20), 2 * axis.fraction_of(10), 1e-12);
+    EXPECT_GT(axis.fraction_of(25), .5) << "the open wound has more room than the scar";
+    for (const double day : {0.0, .5, 12.0, 27.5, 28.0, 60.0, 200.0, 391.0})
+        EXPECT_NEAR(axis.day_at(axis.fraction_of(day)), day, 1e-9 * std::max(1.0, day));
+    EXPECT_EQ(axis.fraction_of(-5), 0);
+    EXPECT_EQ(axis.fraction_of(1e6), 1);
+}
+
+TEST(TimelineAxis, OfAWoundThatNeverClosesHasNoScar)
+{
+    const TimelineAxis axis(std::numeric_limits<double>::infinity(), 40);
+    EXPECT_EQ(axis.last_day(), 40);
+    EXPECT_EQ(axis.day_at(.5), 20);
+    for (const TimelineAxis::Tick& tick : axis.ticks(10))
+        EXPECT_LE(tick.day, 40);
+}
+
+TEST(TimelineAxis, TicksFitAndName)
+{
+    const auto ticks = TimelineAxis(30).ticks(12);
+    EXPECT_LE(ticks.size(), 14u);
+    EXPECT_EQ(ticks.front().label, "0");
+    EXPECT_EQ(ticks.back().label, "+12 mo");
+    EXPECT_TRUE(std::ranges::is_sorted(ticks, {}, &TimelineAxis::Tick::day));
+}
+
 TEST(Playback, RunsToTheLastDayAndStartsAnew)
 {
-    Playback playback{.last_day = 10, .days_per_second = 2};
+    Playback playback{.axis = TimelineAxis(std::numeric_limits<double>::infinity(), 10),
+                      .days_per_second = 2};
     playback.advance(1);
     EXPECT_EQ(playback.day, 0) << "paused";
     playback.toggle();
     playback.advance(3);
-    EXPECT_EQ(playback.day, 6);
+    EXPECT_NEAR(playback.day, 6, 1e-9);
     playback.advance(3);
     EXPECT_EQ(playback.day, 10);
     EXPECT_FALSE(playback.playing);
@@ -28,7 +65,7 @@ TEST(Playback, RunsToTheLastDayAndStartsAnew)
 
 TEST(Playback, StaysWithinItsDays)
 {
-    Playback playback{.last_day = 10};
+    Playback playback{.axis = TimelineAxis(std::numeric_limits<double>::infinity(), 10)};
     playback.seek(-3);
     EXPECT_EQ(playback.day, 0);
     playback.seek(11);

@@ -110,3 +110,38 @@ TEST_F(Endpoint, ClosureLeavesTheSkinThatWasThereBefore)
     EXPECT_GT(cv::norm(picture(stage, 0), without, cv::NORM_INF), 40)
         << "on day 0 there is something to heal";
 }
+
+// The issue's own words: no jump in any pixel greater than the day-to-day change around it. A jump is what is
+// left of a change when the step shrinks; and half-day steps must not suddenly grow.
+TEST_F(Endpoint, NothingJumpsWhereTheWoundBecomesAScar)
+{
+    for (const auto model : {wound::HealingModel::face, wound::HealingModel::contraction}) {
+        app::Scene scene = small::scene(small::head(), 128);
+        scene.wounds[0].healing.model = model;
+        const app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
+        const double closed = wound::closure_day(scene.wounds[0].healing.curve);
+        const auto seen = [&](double day) { return radiance(stage, day, stage.close_up(0), scene.shading); };
+        const std::string name = model == wound::HealingModel::face ? "face" : "contraction";
+
+        std::vector<cv::Mat3f> steps; // half days
+        for (int k = -6; k <= 6; ++k)
+            steps.push_back(seen(closed + 0.5 * k));
+        std::vector<double> change;
+        for (std::size_t k = 0; k + 1 < steps.size(); ++k)
+            change.push_back(cv::norm(steps[k + 1], steps[k], cv::NORM_INF));
+        cv::Mat3f jump, before, after;
+        cv::absdiff(seen(closed + 0.005), seen(closed - 0.005), jump);
+        cv::absdiff(steps[6], steps[4], before);
+        cv::absdiff(steps[8], steps[6], after);
+        const cv::Mat3f around = cv::max(before, after); // of a day, pixel by pixel
+        constexpr double half_float = 1e-3; // radiance is held in half floats
+        double least = 1;
+        cv::minMaxLoc(cv::Mat3f(around - jump).reshape(1), &least);
+        EXPECT_GE(least, -half_float) << name;
+        EXPECT_LE(cv::norm(jump, cv::NORM_INF), 0.1 * std::max(change[5], change[6]) + half_float) << name;
+        for (std::size_t k = 1; k + 1 < change.size(); ++k)
+            EXPECT_LE(change[k], 2 * std::max(change[k - 1], change[k + 1]) + half_float)
+                << name << ", from day " << closed + 0.5 * (double(k) - 6);
+        EXPECT_GT(change[0], 4 * half_float) << name << ": something still heals";
+    }
+}

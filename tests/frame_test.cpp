@@ -4,6 +4,7 @@
 #include "apps/stage.hpp"
 #include "tests/gpu.hpp"
 #include "tests/small_head.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace {
 
@@ -97,6 +98,23 @@ TEST_F(Frame, RunsAgainOnlyWhatAChangeReaches)
     const engine::FrameResult unshadowed = studio.draw(4);
     EXPECT_THAT(ran(unshadowed), UnorderedElementsAre("forward", "tonemap"));
     EXPECT_EQ(unshadowed.passes.size(), 6u) << "no shadow pass is declared, and the labels are culled";
+}
+
+TEST_F(Frame, TakesANumericalReflectanceTableFromTheCpu)
+{
+    const TemporaryFolder cache;
+    ::setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
+    app::Scene scene = small::scene(small::head(), 128);
+    scene.tissue = "table1"; // three channels only
+    Studio calibrated(scene);
+    scene.reflectance_model = wound::Rung::AddingDoubling;
+    Studio numerical(scene);
+    ::unsetenv("XDG_CACHE_HOME");
+    EXPECT_THAT(ran(numerical.draw(9)),
+                UnorderedElementsAre("wound_texture", "wound_relief", "shadow", "forward", "tonemap"));
+    const cv::Mat4b a = calibrated.picture(9), b = numerical.picture(9);
+    EXPECT_GT(share_that_differs(a, b, 0), 0.001) << "another model gives another colour";
+    EXPECT_EQ(share_that_differs(a, b, 16), 0) << "but both are good ones";
 }
 
 TEST_F(Frame, OfEveryWoundRunsAgainWhatTheDayReaches)

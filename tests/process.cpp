@@ -31,6 +31,11 @@ std::string text_of(const std::filesystem::path& file)
 
 } // namespace
 
+std::string program_path()
+{
+    return CICATRIX_PROGRAM;
+}
+
 Outcome run_program(const std::vector<std::string>& arguments, const std::vector<std::string>& environment)
 {
     const TemporaryFolder folder;

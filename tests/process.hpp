@@ -13,3 +13,5 @@ struct Outcome
 /// `environment`: VARIABLE=value, added to the test's own.
 Outcome run_program(const std::vector<std::string>& arguments,
                     const std::vector<std::string>& environment = {});
+
+std::string program_path();

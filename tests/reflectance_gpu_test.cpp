@@ -137,7 +137,7 @@ TEST_F(ReflectanceLutTest, IntegratesTheSpectrumOfChromophoreTissue)
     for (std::size_t i = 0; i < 24; ++i) {
         const double day = passes::lut_row_day(i, 24, last_day);
         rows.push_back(i % 2 ? open_bed(skin(SkinTone::Light), day, 1 - day / last_day)
-                             : covered_bed(skin(SkinTone::Dark), day, 0, 20));
+                             : covered_bed(skin(SkinTone::Dark), day, 20));
     }
     const passes::LutTissue tissue = passes::lut_tissue(rows, last_day);
     expect_table(bake(tissue, Rung::TwoStream, 32), rows, tissue, Rung::TwoStream, 3e-5);

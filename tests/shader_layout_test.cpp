@@ -23,7 +23,8 @@ TEST(ShaderLayout, Frame)
                         CICATRIX_MEMBER(WoundFrame, normal), CICATRIX_MEMBER(WoundFrame, uv_scale),
                         CICATRIX_MEMBER(WoundFrame, uv_offset), CICATRIX_MEMBER(WoundFrame, bed_recovery),
                         CICATRIX_MEMBER(WoundFrame, border_recovery), CICATRIX_MEMBER(WoundFrame, lut),
-                        CICATRIX_MEMBER(WoundFrame, new_skin), CICATRIX_MEMBER(WoundFrame, epithelium)});
+                        CICATRIX_MEMBER(WoundFrame, epithelium), CICATRIX_MEMBER(WoundFrame, pore_loss),
+                        CICATRIX_MEMBER(WoundFrame, sheen)});
 }
 
 TEST(ShaderLayout, Part)

@@ -138,6 +138,7 @@ AreaSeries series_of(const std::string& name, const std::map<double, Measured>& 
     series.name = name;
     const auto first = days.begin();
     const double initial = reader.columns.ratio ? 1 : first->second.area / first->second.weight;
+    series.initial_area = initial;
     if (!(initial > 0))
         reader.refuse(fmt::format("wound {}: the area on its first day is 0", name),
                       "start with the day on which the wound is open");
@@ -220,12 +221,16 @@ std::vector<AreaSeries> read_area_table(std::istream& text, std::string_view whe
     return series;
 }
 
-AreaSeries mean_series(const std::vector<AreaSeries>& series)
+AreaSeries mean_series(const std::vector<AreaSeries>& series, MeanOf of)
 {
+    double mean_initial = 0;
+    for (const AreaSeries& one : series)
+        mean_initial += one.initial_area / static_cast<double>(series.size());
     std::map<double, Measured> days;
     for (const AreaSeries& one : series)
         for (std::size_t i = 0; i < one.days.size(); ++i) {
-            days[one.days[i]].area += one.ratios[i];
+            days[one.days[i]].area +=
+                one.ratios[i] * (of == MeanOf::ratios ? 1 : one.initial_area / mean_initial);
             days[one.days[i]].weight += 1;
         }
     AreaSeries mean;

@@ -20,6 +20,7 @@ struct AreaSeries
     std::vector<double> days;    // ascending, distinct; the first measured day is day 0
     std::vector<double> ratios;  // area / area on the first day
     std::vector<double> weights; // of each day's ratio, > 0
+    double initial_area = 1;     // on the first day, in the table's unit; 1 where the table holds ratios
 };
 
 /// One series for each wound, in order of first appearance. Throws cicatrix::InputError naming file, line and
@@ -27,7 +28,16 @@ struct AreaSeries
 std::vector<AreaSeries> read_area_table(const std::filesystem::path& file);
 std::vector<AreaSeries> read_area_table(std::istream& text, std::string_view where);
 
-/// The mean over series of the ratio on every day on which at least one was measured, named "mean".
-AreaSeries mean_series(const std::vector<AreaSeries>& series);
+/// What the mean over several wounds is: of their ratios, each wound its own measure, or the mean area of
+/// those measured on a day over the mean area of all on their first: then a day on which a large wound was
+/// missed looks healed.
+enum class MeanOf
+{
+    ratios,
+    areas
+};
+
+/// The mean over series on every day on which at least one was measured, named "mean".
+AreaSeries mean_series(const std::vector<AreaSeries>& series, MeanOf of = MeanOf::ratios);
 
 } // namespace wound

@@ -235,7 +235,7 @@ std::vector<SeriesFit> fit_table(const std::vector<AreaSeries>& table, std::stri
         if (series.days.size() >= 2 || table.size() == 1)
             fits.push_back(fit_series(series, where, options));
     if (table.size() > 1)
-        fits.push_back(fit_series(mean_series(table), where, options));
+        fits.push_back(fit_series(mean_series(table, options.mean), where, options));
     return fits;
 }
 

@@ -25,6 +25,7 @@ const char* name_of(CurveModel model);
 struct FitOptions
 {
     bool robust = false; // Huber's loss: one bad measurement does not pull the curve
+    MeanOf mean = MeanOf::ratios;
 };
 
 struct CurveFit

@@ -36,7 +36,6 @@ constexpr std::array<Knot, 5> clot_course{{{0, 0}, {1.2, .62}, {2.5, .50}, {6, .
 constexpr std::array<Knot, 5> fibrin_course{{{.8, 0}, {3, .36}, {4.5, .36}, {8, .05}, {12, 0}}};
 constexpr std::array<Knot, 4> granulation_course{{{2.5, 0}, {6, .55}, {10, .9}, {13, 1}}};
 constexpr std::array<Knot, 4> rim_course{{{0, 1}, {3, 1}, {12, .55}, {25, .15}}};
-constexpr std::array<Knot, 3> pink_course{{{5, 1.1}, {12, .95}, {25, .6}}};
 
 const Vec3d clot_color{.055, .012, .009}, fibrin_color{.52, .35, .15}, granulation_color{.37, .045, .042};
 
@@ -74,7 +73,7 @@ Phase phase_at(double day, double closure_day, double age_days)
         return std::max(along(course, now) - along(course, then), 0.);
     };
     return {since_photo(clot_course), since_photo(fibrin_course), since_photo(granulation_course),
-            along(rim_course, now) / along(rim_course, then), along(pink_course, now)};
+            along(rim_course, now) / along(rim_course, then)};
 }
 
 PhaseDays phase_days(double closure_day)
@@ -86,7 +85,7 @@ PhaseDays phase_days(double closure_day)
                                                        (closing_days - early_days);
     };
     return {day_of(fibrin_course.front().day), day_of(granulation_course.front().day),
-            day_of(pink_course.front().day)};
+            day_of(early_days)}; // with the end of inflammation, new epithelium grows
 }
 
 double bed_luminance(const Patch& patch)

@@ -1,6 +1,6 @@
 // How an open wound's colour changes between injury and closure, beyond shrinking: bright blood, dark clot,
-// yellow crust and fibrin, red granulation, pink new skin (wound-healing phases as in Singer & Clark 1999,
-// "Cutaneous wound healing").
+// yellow crust and fibrin, red granulation (wound-healing phases as in Singer & Clark 1999, "Cutaneous wound
+// healing"). The colour of new skin comes from optics (skin_presets.hpp).
 //
 // A photograph shows one moment only. phase_at() says how much of the bed has changed since, and tinted()
 // recolours a texel accordingly; a shader can do the same from the few numbers in Phase and bed_luminance().
@@ -19,8 +19,6 @@ struct Phase
     double fibrin = 0;      // yellow slough or crust, the palest texels first
     double granulation = 0; // even red tissue, the reddest texels first
     double rim = 1;         // factor on the patch's opacity outside the mask: the inflamed halo fades
-    double pink =
-        1; // blood over the skin of newly closed wound, units of blood_absorbance (healthy_skin.hpp)
 };
 
 /// `day` since the photograph, which was taken `age_days` after the injury; the wound closes `closure_day`

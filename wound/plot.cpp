@@ -24,6 +24,33 @@ double tick_step(Range range)
     return 10 * power;
 }
 
+/// Where the axis has ticks.
+std::vector<double> ticks(Range range)
+{
+    std::vector<double> result;
+    if (!range.logarithmic) {
+        const double step = tick_step(range);
+        for (double tick = std::ceil(range.low / step) * step; tick <= range.high + 1e-9 * step; tick += step)
+            result.push_back(std::abs(tick) < 1e-9 * step ? 0 : tick);
+        return result;
+    }
+    const bool few = range.high / range.low < 150; // then 2 and 5 times a power of ten, too
+    for (double power = std::pow(10, std::floor(std::log10(range.low))); power <= range.high; power *= 10)
+        for (double step : {1., 2., 5.})
+            if (const double tick = step * power;
+                tick >= range.low && tick <= range.high && (few || step == 1))
+                result.push_back(tick);
+    return result;
+}
+
+/// Where on the axis a value lies, 0 to 1.
+double share(Range range, double value)
+{
+    if (range.logarithmic)
+        return std::log(std::max(value, 1e-300) / range.low) / std::log(range.high / range.low);
+    return (value - range.low) / (range.high - range.low);
+}
+
 Range widened(Range range)
 {
     if (!std::isfinite(range.low) || !std::isfinite(range.high))
@@ -47,28 +74,24 @@ Plot::Plot(const cv::Mat3b& picture, cv::Rect area, Range x, Range y, const std:
 {
     draw_text(picture_, title, {area.x + 8, area.y + 16});
     draw_text(picture_, x_label, {inner_.x + inner_.width / 2 - 20, area.y + area.height - 10}, kAxis);
-    const double step_x = tick_step(x_), step_y = tick_step(y_);
     const auto pixel = [this](cv::Point2d p) { return place(p) / (1 << kShift); };
-    for (double tick = std::ceil(x_.low / step_x) * step_x; tick <= x_.high + 1e-9 * step_x; tick += step_x) {
+    for (double tick : ticks(x_)) {
         const int column = pixel({tick, y_.low}).x;
         cv::line(picture_, {column, inner_.y}, {column, inner_.br().y}, kGrid);
-        draw_text(picture_, fmt::format("{:g}", std::abs(tick) < 1e-9 * step_x ? 0 : tick),
-                  {column - 8, inner_.br().y + 18}, kAxis);
+        draw_text(picture_, fmt::format("{:g}", tick), {column - 8, inner_.br().y + 18}, kAxis);
     }
-    for (double tick = std::ceil(y_.low / step_y) * step_y; tick <= y_.high + 1e-9 * step_y; tick += step_y) {
+    for (double tick : ticks(y_)) {
         const int row = pixel({x_.low, tick}).y;
         cv::line(picture_, {inner_.x, row}, {inner_.br().x, row}, kGrid);
-        draw_text(picture_, fmt::format("{:.3g}", std::abs(tick) < 1e-9 * step_y ? 0 : tick),
-                  {inner_.x - 46, row + 5}, kAxis);
+        draw_text(picture_, fmt::format("{:.4g}", tick), {inner_.x - 46, row + 5}, kAxis);
     }
     cv::rectangle(picture_, inner_, kAxis);
 }
 
 cv::Point Plot::place(cv::Point2d p) const
 {
-    const double x = inner_.x + std::clamp((p.x - x_.low) / (x_.high - x_.low), -.02, 1.02) * inner_.width;
-    const double y =
-        inner_.br().y - std::clamp((p.y - y_.low) / (y_.high - y_.low), -.02, 1.02) * inner_.height;
+    const double x = inner_.x + std::clamp(share(x_, p.x), -.02, 1.02) * inner_.width;
+    const double y = inner_.br().y - std::clamp(share(y_, p.y), -.02, 1.02) * inner_.height;
     return {cvRound(x * (1 << kShift)), cvRound(y * (1 << kShift))};
 }
 

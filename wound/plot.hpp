@@ -10,6 +10,7 @@ namespace wound {
 struct Range
 {
     double low = 0, high = 1;
+    bool logarithmic = false; // both ends > 0
 };
 
 class Plot

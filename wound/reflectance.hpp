@@ -43,7 +43,7 @@ struct RungOptions
     int angles = 8;                                 // adding-doubling
     std::uint64_t photons = 1'000'000, seed = 1;    // Monte Carlo
     unsigned threads = 0;                           // Monte Carlo; 0: one per core
-    std::function<void(double)> progress = {}; // Monte Carlo; the finished share, by one thread at a time
+    std::function<void(double)> progress = {}; // the finished share, by one thread at a time
 };
 
 struct Response

@@ -46,25 +46,41 @@ double months_since_closure(double day, double closure_day)
     return std::max(0.0, day - closure_day) / days_per_month;
 }
 
-// Epithelium starts as a thin pale sheet. Redness and pigment of the scar against the skin beside it:
-// Danielsen et al. 2013.
+// Epithelium starts as a thin pale sheet and becomes skin's with one turnover of the epidermis, about 28
+// days. What has grown evenly since the injury is on average half as old, and from the closure on it ages
+// with time.
+double epithelium_maturity(double day, double closure_day)
+{
+    return 1 - std::exp(-(day - std::min(day, closure_day) / 2) / 28);
+}
+double epithelium_thickness(double day, double closure_day)
+{
+    return .35 + .65 * epithelium_maturity(day, closure_day);
+}
+
 Layer new_epithelium(const ChromophoreSkin& skin, double day, double closure_day)
 {
-    const double maturity = 1 - std::exp(-day / 14), months = months_since_closure(day, closure_day);
+    const double months = months_since_closure(day, closure_day);
     const double darkening = .35 * std::exp(-.235 * months) *
                              (1 - std::exp(-2 * months)); // measured: +24 % at 1, +15 % at 3 months
     Chromophores content = skin.epidermis;
-    content.melanosomes *= (.3 + .7 * maturity) * (1 + darkening);
-    return epidermis_layer(content, skin.epidermis_mm * (.35 + .65 * maturity));
+    content.melanosomes *= (.3 + .7 * epithelium_maturity(day, closure_day)) * (1 + darkening);
+    return epidermis_layer(content, skin.epidermis_mm * epithelium_thickness(day, closure_day));
+}
+
+// Before the closure the ring is granulation tissue that loses its vessels; from then on the scar's excess
+// over the skin beside it fades. Redness and pigment of the scar: Danielsen et al. 2013.
+double scar_blood(double skins_blood, double day, double closure_day)
+{
+    const double redness = 2.055 / (1 + months_since_closure(day, closure_day) / 2.37);
+    const double scar = std::min(granulation.blood, skins_blood * (1 + redness));
+    return std::lerp(granulation.blood, scar, std::min(day / closure_day, 1.0));
 }
 
 Layer scar_tissue(const ChromophoreSkin& skin, double day, double closure_day)
 {
-    // Before the closure the ring is granulation tissue that loses its vessels; from then on the excess of
-    // redness fades.
-    const double redness = 2.055 / (1 + months_since_closure(day, closure_day) / 2.37);
     Chromophores content = skin.dermis;
-    content.blood = std::min(granulation.blood, skin.dermis.blood * (1 + redness));
+    content.blood = scar_blood(skin.dermis.blood, day, closure_day);
     return dermis_layer("scar", content, 0);
 }
 
@@ -119,10 +135,34 @@ TissueDay open_bed(const HealingTissue& tissue, double day, double depth_scale)
             .cover = blood_film(day)};
 }
 
-TissueDay covered_bed(const HealingTissue& tissue, double day, double depth_scale, double closure_day)
+namespace {
+
+// The layer under the first is what has regrown, with a scar's excess of blood; the first covers it, as thick
+// as it was: in a table it holds most of the skin's colour, whatever that is.
+TissueDay covered_table(const SkinLayers& table, double day, double closure_day)
+{
+    TissueDay result = restored_skin(table, 0);
+    result.regrown_ratio = 1;
+    result.regrown = table.layers[table.layers.size() > 1 ? 1 : 0];
+    if (table.layers.size() > 1)
+        result.cover = table.layers[0];
+    const ChromophoreSkin light = skin(SkinTone::Light);
+    const Layer blood = chromophore_layer(
+        "blood", {.blood = 1, .oxygenation = light.dermis.oxygenation, .baseline = 0}, 0, blood_index, 0);
+    const double excess = scar_blood(light.dermis.blood, day, closure_day) - light.dermis.blood;
+    constexpr std::array<std::size_t, 3> rgb{21, 14, 5}; // 610, 540, 450 nm
+    for (std::size_t i = 0; i < table.channels(); ++i)
+        if (table.channels() == rgb.size() || table.channels() == wavelength_count)
+            result.regrown.sigma_a[i] += excess * blood.sigma_a[table.channels() == rgb.size() ? rgb[i] : i];
+    return result;
+}
+
+} // namespace
+
+TissueDay covered_bed(const HealingTissue& tissue, double day, double closure_day)
 {
     if (const auto* table = std::get_if<SkinLayers>(&tissue))
-        return restored_skin(*table, depth_scale);
+        return covered_table(*table, day, closure_day);
     const auto& content = std::get<ChromophoreSkin>(tissue);
     return {.intact = content.layers(),
             .missing_ratio = 0,
@@ -180,9 +220,9 @@ std::optional<SkinLayers> tissue_preset(std::string_view name)
     if (name == "granulation")
         return layers_at(open_bed(light, 14, .5), depth_mm);
     if (name == "new-epithelium")
-        return layers_at(covered_bed(light, 10, 0, closure_day), depth_mm);
+        return layers_at(covered_bed(light, 10, closure_day), depth_mm);
     if (name == "scar")
-        return layers_at(covered_bed(light, closure_day + days_per_month, 0, closure_day), depth_mm);
+        return layers_at(covered_bed(light, closure_day + days_per_month, closure_day), depth_mm);
     if (name == "bruise-1")
         return bruise(light, 1);
     if (name == "bruise-6")

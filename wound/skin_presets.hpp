@@ -32,8 +32,10 @@ using HealingTissue = std::variant<SkinLayers, ChromophoreSkin>;
 /// The open wound `day` days after the injury. Table tissue: the paper's restored_skin().
 TissueDay open_bed(const HealingTissue& tissue, double day, double depth_scale);
 
-/// Where new epithelium has covered the wound: the pink ring, and after `closure_day` the scar.
-TissueDay covered_bed(const HealingTissue& tissue, double day, double depth_scale, double closure_day);
+/// Where new epithelium has covered the wound: the pink ring, and after `closure_day` the scar. A table of
+/// three channels, taken as 610, 540 and 450 nm, or a spectrum gets the excess of blood that
+/// the light preset's scar has; of other tables nothing is known but that they are whole again.
+TissueDay covered_bed(const HealingTissue& tissue, double day, double closure_day);
 
 /// Haemorrhage under uninjured skin: blue-red, then yellow with bilirubin, gone after about three weeks.
 SkinLayers bruise(const ChromophoreSkin& skin, double day);

@@ -37,6 +37,20 @@ WoundPlace project_wound(WoundFrame w, vec3 position, vec3 geometric)
     return WoundPlace(uv, any(greaterThan(abs(uv - 0.5), vec2(0.5))) ? 0 : facing);
 }
 
+vec3 tissue_reflectance(WoundFrame w, sampler2D lut, uint part, float injury_mm)
+{
+    return textureLod(lut, lut_uv(w.lut, part, injury_mm, w.day, vec2(textureSize(lut, 0))), 0).rgb;
+}
+
+const float INFLAMED_MM = 0.5; // the inflamed rim is as red as if an injury of this depth had been covered there
+
+// The face's own skin as the covered injury changes it: the table's colour over that of the same tissue without an injury.
+vec3 covered_skin(WoundFrame w, sampler2D lut, float injury_mm, vec3 skin)
+{
+    const vec3 unhurt = max(tissue_reflectance(w, lut, LUT_COVERED, 0), vec3(1e-3));
+    return min(skin * tissue_reflectance(w, lut, LUT_COVERED, injury_mm) / unhurt, vec3(1));
+}
+
 void add_wound(uint blend_model, WoundFrame w, sampler2D color_map, sampler2D state_map, sampler2D relief_map, sampler2D lut,
                vec3 position, vec3 geometric, inout SkinPoint skin)
 {
@@ -51,25 +65,25 @@ void add_wound(uint blend_model, WoundFrame w, sampler2D color_map, sampler2D st
     if (opacity <= 0)
         return;
     const vec4 state = textureLod(state_map, uv, 0);
-    const float recovery = mix(w.border_recovery, w.bed_recovery, state.b);
     const vec4 relief = patch_sample(relief_map, uv, footprint);
 
-    const vec3 reflectance = textureLod(lut, lut_uv(w.lut, state.r, w.day, vec2(textureSize(lut, 0))), 0).rgb;
-    // Between the bed and the outer border lies new epithelium: thin, so that the blood beneath shows. Its W is that, not the photo's bed.
-    const float ring_share = clamp(state.a - state.b, 0, 1);
-    // The inflamed rim turns into it as well, as soon as there is any.
-    const float renewed = w.epithelium * (1 - state.b) * clamp(8 * recovery, 0, 1);
-    const vec3 wound = mix(color.rgb, skin.albedo * w.new_skin, renewed);
+    // No photograph shows the new epithelium between bed and border: its W is R, and as its layers recover by the day, nothing
+    // is left for r to do. The rim has lost nothing, but is inflamed as well; what the photograph shows of that gives way to it.
+    const float renewed = w.epithelium * (1 - state.b), ring = w.epithelium * clamp(state.a - state.b, 0, 1);
+    const float recovery = mix(w.border_recovery * (1 - w.epithelium * state.a), w.bed_recovery, state.b);
+    const vec3 new_skin = renewed > 0 ? covered_skin(w, lut, max(state.g, INFLAMED_MM * (1 - state.a)), skin.albedo) : vec3(0);
+    const vec3 wound = mix(color.rgb, new_skin, renewed);
+    const vec3 reflectance = mix(tissue_reflectance(w, lut, LUT_OPEN, state.r), new_skin, renewed);
     skin.albedo = mix(skin.albedo, recovering_color(blend_model, wound, reflectance, skin.albedo, recovery), opacity);
 
-    const float fresh = 1 - clamp(recovery, 0, 1); // how much of the injury is still to be seen
-    const float bed = state.b * opacity, ring = ring_share * opacity;
-    // New epithelium has few pores; the bed is uneven in a way of its own, which the pores stand for. The hollow bends the normal: height is -depth.
-    const vec3 smoothed = mix(skin.normal, geometric, fresh * clamp(0.4 * bed + 0.6 * ring, 0, 1));
+    const float fresh = 1 - clamp(w.bed_recovery, 0, 1); // how much of the bed is still to be seen
+    const float bed = state.b * opacity, taut = ring * opacity;
+    // The bed is uneven in a way of its own, which the pores stand for. The hollow bends the normal: height is -depth.
+    const vec3 smoothed = mix(skin.normal, geometric, clamp(0.4 * bed * fresh + w.pore_loss * taut, 0, 1));
     skin.normal = normalize(smoothed + facing * (relief.x * w.right + relief.y * w.down));
     skin.occlusion *= mix(1.0, relief.z, facing);
     skin.wetness = max(skin.wetness, bed * sqrt(fresh));
-    skin.tautness = max(skin.tautness, ring * fresh);
+    skin.tautness = max(skin.tautness, w.sheen * taut);
 }
 
 #endif

@@ -34,10 +34,11 @@ struct WoundFrame
     vec2 uv_scale;    // patch coordinates, -1..1, to the uv of the wound's images, which hold a region of the patch
     vec2 uv_offset;
     float bed_recovery;    // r of eq. (4) in the open bed
-    float border_recovery; // r of eq. (4) elsewhere: on new epithelium and in the rim
+    float border_recovery; // r of eq. (4) in the rim
     LutAxes lut;      // of the wound's reflectance table
-    vec3 new_skin;    // the colour of new epithelium over that of skin
     float epithelium; // 1 when new epithelium covers what lies between bed and border, 0 when the border itself closes
+    float pore_loss;  // of new epithelium and scar: 1 no pores or fine lines .. 0 as skin
+    float sheen;      // 1 as smooth and shiny as new epithelium .. 0 as skin
 };
 
 #ifdef __cplusplus

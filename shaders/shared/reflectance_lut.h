@@ -7,9 +7,17 @@
 #define SHARED_FUNCTION inline
 namespace shared {
 using std::sqrt;
+#define CONSTANT constexpr uint
 #else
 #define SHARED_FUNCTION
+#define CONSTANT const uint
 #endif
+
+// The table's two parts, one above the other and of equal height. No filter reaches from one into the other, because the
+// axes end on texel centres.
+CONSTANT LUT_OPEN = 0;    // the open bed
+CONSTANT LUT_COVERED = 1; // what new epithelium has covered: the ring around the bed, and the scar
+CONSTANT LUT_PARTS = 2;
 
 struct LutLayer
 {
@@ -61,10 +69,14 @@ SHARED_FUNCTION float lut_coordinate(float value, float size, float last)
     return (t * (size - 1.0f) + 0.5f) / size;
 }
 
-SHARED_FUNCTION vec2 lut_uv(LutAxes axes, float injury_depth_mm, float day, vec2 size)
+// `size`: texels of the whole table.
+SHARED_FUNCTION vec2 lut_uv(LutAxes axes, uint part, float injury_depth_mm, float day, vec2 size)
 {
-    return vec2(lut_coordinate(injury_depth_mm, size.x, axes.deepest_mm), lut_coordinate(day, size.y, axes.last_day));
+    float v = lut_coordinate(day, size.y / float(LUT_PARTS), axes.last_day);
+    return vec2(lut_coordinate(injury_depth_mm, size.x, axes.deepest_mm), (float(part) + v) / float(LUT_PARTS));
 }
+
+#undef CONSTANT
 
 #ifdef __cplusplus
 } // namespace shared

@@ -1,0 +1,40 @@
+// `cicatrix batch`: a table of variations becomes a folder of captures. Each variation is drawn into a hidden
+// folder that takes its name when it is whole, so a batch that was stopped goes on where it was, and any
+// number of machines may each draw a share into the same place without knowing of one another.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/renderer.hpp"
+#include "apps/variations.hpp"
+
+namespace app {
+
+struct BatchOptions
+{
+    std::filesystem::path out = "batch"; // OUT/NAME/ holds what `capture` writes
+    std::vector<std::string> views;      // as for `capture`
+    bool labels = false;
+};
+
+struct BatchResult
+{
+    std::size_t drawn = 0, kept = 0;
+    std::vector<std::string> failures; // "NAME: what went wrong"
+};
+
+/// Draws those of `variations` that OUT does not hold yet. One that fails (a photograph in which no wound is
+/// found) is told at once and does not stop the others. Throws cicatrix::InputError when OUT cannot be
+/// written.
+BatchResult run_batch(Renderer& renderer, const std::vector<Variation>& variations,
+                      const BatchOptions& options);
+
+/// Joins what the variations' folders hold: OUT/batch.json and, with labels, OUT/coco.json and
+/// OUT/measurements.csv. Throws cicatrix::InputError when variations are missing.
+void merge_batch(const std::vector<Variation>& variations, const BatchOptions& options);
+
+void add_batch_command(CLI::App& program);
+
+} // namespace app

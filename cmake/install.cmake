@@ -1,0 +1,39 @@
+# cmake --install and the Debian package. The man page and the completions are written by the program itself.
+include(GNUInstallDirs)
+
+set(documents ${CMAKE_BINARY_DIR}/documents)
+set(document_files)
+function(cicatrix_document kind name folder)
+    add_custom_command(
+        OUTPUT ${documents}/${name}
+        COMMAND ${CMAKE_COMMAND} -E make_directory ${documents}
+        COMMAND cicatrix document ${kind} > ${documents}/${name}
+        COMMENT "Writing ${name}"
+        VERBATIM)
+    install(FILES ${documents}/${name} DESTINATION ${folder})
+    set(document_files ${document_files} ${documents}/${name} PARENT_SCOPE)
+endfunction()
+cicatrix_document(man cicatrix.1 ${CMAKE_INSTALL_MANDIR}/man1)
+cicatrix_document(bash cicatrix ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+cicatrix_document(zsh _cicatrix ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+cicatrix_document(fish cicatrix.fish ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+add_custom_target(documents ALL DEPENDS ${document_files})
+
+install(TARGETS cicatrix RUNTIME)
+install(PROGRAMS apps/cicatrix-fetch-head TYPE BIN)
+install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/cicatrix)
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The Cicatrix authors <cicatrix@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS libvulkan1) # loaded at run time, so shlibdeps does not see it
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd, ffmpeg")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "npm, ca-certificates") # to fetch the default head
+include(CPack)
