@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "apps/bake.hpp"
 #include "passes/reflectance_table.hpp"
@@ -145,9 +146,15 @@ Stage::Stage(const engine::Device& device, const Scene& scene, const Props& prop
     settle();
 }
 
-void Stage::update(const Scene& scene)
+void Stage::update(const Scene& scene, bool dragging)
 {
-    accept(make(scene));
+    const bool before = std::exchange(dragging_, dragging);
+    try {
+        accept(make(scene));
+    } catch (...) {
+        dragging_ = before;
+        throw;
+    }
 }
 
 void Stage::accept(Set set)
@@ -176,6 +183,8 @@ bool Stage::poll()
 
 void Stage::settle()
 {
+    if (dragging_)
+        update(Scene(set_.scene));
     while (pending()) {
         workshop_->wait();
         poll();
@@ -232,7 +241,7 @@ void Stage::place_wounds(Set& set) const
     for (std::size_t i = 0; i < set.placed.size(); ++i) {
         const WoundScene& wound = set.placed[i];
         const std::string name = name_of(wound, i);
-        std::shared_ptr<Fit> fit = workshop_->fit(wound, set.head, name);
+        std::shared_ptr<Fit> fit = workshop_->fit(wound, set.head, name, !dragging_);
         const bool exact = fit != nullptr;
         if (!exact) {
             set.complete = false;
