@@ -59,6 +59,22 @@ const AccessRow& access_row(Usage usage)
     return row;
 }
 
+VkImageMemoryBarrier2 vulkan_barrier(const Barrier& barrier, VkImage image,
+                                     const VkImageSubresourceRange& range)
+{
+    return {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+            .srcStageMask = barrier.src_stages,
+            .srcAccessMask = barrier.src_access,
+            .dstStageMask = barrier.dst_stages,
+            .dstAccessMask = barrier.dst_access,
+            .oldLayout = barrier.old_layout,
+            .newLayout = barrier.new_layout,
+            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .image = image,
+            .subresourceRange = range};
+}
+
 std::optional<Barrier> advance(AccessState& state, Usage usage)
 {
     const AccessRow& next = access_row(usage);

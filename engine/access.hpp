@@ -55,6 +55,10 @@ struct Barrier
     bool operator==(const Barrier&) const = default;
 };
 
+/// As Vulkan takes it.
+VkImageMemoryBarrier2 vulkan_barrier(const Barrier& barrier, VkImage image,
+                                     const VkImageSubresourceRange& range);
+
 /// Moves `state` on by one access and returns the barrier that must come before it, if any.
 std::optional<Barrier> advance(AccessState& state, Usage usage);
 

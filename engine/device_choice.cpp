@@ -121,6 +121,10 @@ void check_requirements(PhysicalDevice& device)
     if (std::find(device.info.sample_counts.begin(), device.info.sample_counts.end(), 4u) ==
         device.info.sample_counts.end())
         device.info.missing.push_back("4 samples per pixel");
+    const VkPhysicalDeviceLimits& limits = device.properties.limits;
+    if (std::min(limits.maxPerStageDescriptorSamplers, limits.maxPerStageDescriptorSampledImages) <
+        textures_per_stage)
+        device.info.missing.push_back(fmt::format("{} textures per shader stage", textures_per_stage));
 }
 
 void describe_memory_and_driver(PhysicalDevice& device)

@@ -24,6 +24,10 @@ struct DeviceInfo
     std::vector<std::string> missing;         // requirements it does not meet; empty: fit
 };
 
+/// Textures that one shader stage can sample on every device we take: the most that any of our shaders does.
+/// Vulkan itself promises 16.
+constexpr std::uint32_t textures_per_stage = 32;
+
 struct PhysicalDevice
 {
     VkPhysicalDevice handle = VK_NULL_HANDLE;

@@ -17,20 +17,9 @@ void Recorder::barriers(std::span<const ImageBarrier> list) const
 {
     std::vector<VkImageMemoryBarrier2> image_barriers;
     for (const auto& [id, barrier] : list)
-        image_barriers.push_back(
-            {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-             .srcStageMask = barrier.src_stages,
-             .srcAccessMask = barrier.src_access,
-             .dstStageMask = barrier.dst_stages,
-             .dstAccessMask = barrier.dst_access,
-             .oldLayout = barrier.old_layout,
-             .newLayout = barrier.new_layout,
-             .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-             .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-             .image = images[id.index].image,
-             .subresourceRange = {.aspectMask = aspect_of(graph.images[id.index].desc.format),
-                                  .levelCount = 1,
-                                  .layerCount = 1}});
+        image_barriers.push_back(vulkan_barrier(
+            barrier, images[id.index].image,
+            {.aspectMask = aspect_of(graph.images[id.index].desc.format), .levelCount = 1, .layerCount = 1}));
     const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                       .imageMemoryBarrierCount =
                                           static_cast<std::uint32_t>(image_barriers.size()),

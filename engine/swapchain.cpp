@@ -35,17 +35,8 @@ constexpr Step free_image{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0, VK_IMAGE_LAYO
 
 void barrier(VkCommandBuffer commands, VkImage image, const Step& from, const Step& to)
 {
-    const VkImageMemoryBarrier2 one{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                    .srcStageMask = from.stages,
-                                    .srcAccessMask = from.access,
-                                    .dstStageMask = to.stages,
-                                    .dstAccessMask = to.access,
-                                    .oldLayout = from.layout,
-                                    .newLayout = to.layout,
-                                    .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                    .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                    .image = image,
-                                    .subresourceRange = whole};
+    const VkImageMemoryBarrier2 one = vulkan_barrier(
+        {from.stages, from.access, to.stages, to.access, from.layout, to.layout}, image, whole);
     const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                 .imageMemoryBarrierCount = 1,
                                 .pImageMemoryBarriers = &one};
@@ -380,7 +371,8 @@ cv::Mat3b Swapchain::picture_of(const WindowFrame& frame)
     const Buffer bytes(device, VkDeviceSize{extent.width} * extent.height * 4,
                        VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostAccess::Read, "window");
     device.run_once([&](VkCommandBuffer to) {
-        record(to, frame, {canvas.handle(), canvas.view(), extent, rgba}, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        record(to, frame, {canvas.handle(), canvas.view(), extent, rgba},
+               VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                        .imageExtent = {extent.width, extent.height, 1}};
         vkCmdCopyImageToBuffer(to, canvas.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, bytes.handle(), 1,

@@ -108,18 +108,8 @@ void copy_levels(VkCommandBuffer commands, const Buffer& staging, const Image& i
 {
     AccessState state;
     const auto move_to = [&](Usage usage) {
-        const Barrier barrier = *advance(state, usage);
-        const VkImageMemoryBarrier2 image_barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                                  .srcStageMask = barrier.src_stages,
-                                                  .srcAccessMask = barrier.src_access,
-                                                  .dstStageMask = barrier.dst_stages,
-                                                  .dstAccessMask = barrier.dst_access,
-                                                  .oldLayout = barrier.old_layout,
-                                                  .newLayout = barrier.new_layout,
-                                                  .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                                  .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                                  .image = image.handle(),
-                                                  .subresourceRange = image.range()};
+        const VkImageMemoryBarrier2 image_barrier =
+            vulkan_barrier(*advance(state, usage), image.handle(), image.range());
         const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                           .imageMemoryBarrierCount = 1,
                                           .pImageMemoryBarriers = &image_barrier};

@@ -1,6 +1,7 @@
 // What reflection reads out of compiled shaders, and what
 // comes of shaders that want the wrong things. No device.
 #include "engine/binding_check.hpp"
+#include "engine/device_choice.hpp"
 #include "tests/gpu.hpp"
 #include "tests/layout.hpp"
 
@@ -121,6 +122,20 @@ std::vector<std::string> problems_of(void (*declare)(Graph&))
     Graph graph;
     declare(graph);
     return check_bindings(graph, gpu::shaders());
+}
+
+TEST(Bindings, NoShaderSamplesMoreThanADeviceMustOffer)
+{
+    std::uint32_t most = 0;
+    for (const EmbeddedShader& shader : embedded_shaders()) {
+        std::uint32_t textures = 0;
+        for (const ShaderBinding& binding : gpu::shaders().find(shader.name)->interface.bindings)
+            if (binding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)
+                textures += binding.count;
+        EXPECT_LE(textures, textures_per_stage) << shader.name;
+        most = std::max(most, textures);
+    }
+    EXPECT_EQ(most, textures_per_stage) << "devices are refused for no reason";
 }
 
 TEST(Bindings, NothingIsSaidWhenAllIsGiven)
