@@ -43,21 +43,19 @@ passes::Place read_place(Fields& fields)
                 "give a named place, face coordinates [x, y] or a point [x, y, z] in metres");
 }
 
-wound::Healing read_healing(const json& object, const std::string& where, const std::filesystem::path& scene)
+wound::Healing read_healing(const json& object, const std::string& where, const std::filesystem::path& scene,
+                            wound::Healing healing)
 {
     Fields fields(object, where);
-    wound::Healing healing;
     const std::string model =
         fields.choice("model", healing.model == wound::HealingModel::face ? "face" : "contraction",
                       {"contraction", "face"});
     healing.model = model == "face" ? wound::HealingModel::face : wound::HealingModel::contraction;
-    if (const std::string areas = fields.text("areas", ""); !areas.empty()) {
-        const std::filesystem::path table = beside(scene, areas);
-        healing.curve = wound::fit_table(wound::read_area_table(table), table.string())
-                            .back()
-                            .best()
-                            .curve; // the mean of several
-    }
+    const std::string series = fields.text("series", "");
+    if (const std::string areas = fields.text("areas", ""); !areas.empty())
+        healing.curve = wound::curve_from_areas(beside(scene, areas), series);
+    else if (!series.empty())
+        fields.fail("series", "names a series of no table", "give areas, a CSV of measured areas");
     healing.curve.gamma = fields.number("gamma", healing.curve.gamma, 0.5, 4);
     healing.curve.delta = fields.number("delta", healing.curve.delta, 0, 10);
     healing.curve.theta = fields.number("theta", healing.curve.theta, -1, 1);
@@ -93,10 +91,12 @@ json hints_to_json(const wound::SegmentationHints& hints)
     return object;
 }
 
-WoundScene read_wound(const json& object, const std::string& where, const std::filesystem::path& scene)
+WoundScene read_wound(const json& object, const std::string& where, const std::filesystem::path& scene,
+                      const wound::Healing& healing_of_all)
 {
     Fields fields(object, where);
     WoundScene wound;
+    wound.healing = healing_of_all;
     wound.photo = beside(scene, fields.text("photo", ""));
     wound.mask = beside(scene, fields.text("mask", ""));
     wound.kind = fields.choice("kind", wound.kind, {"abrasion", "laceration", "avulsion"});
@@ -106,7 +106,7 @@ WoundScene read_wound(const json& object, const std::string& where, const std::f
     wound.roll_deg = fields.number("roll_deg", wound.roll_deg, -360, 360);
     wound.depth_factor = fields.number("depth_factor", wound.depth_factor, 0, 5);
     if (const json* healing = fields.get("healing"))
-        wound.healing = read_healing(*healing, fields.where("healing"), scene);
+        wound.healing = read_healing(*healing, fields.where("healing"), scene, wound.healing);
     if (const json* hints = fields.get("segmentation"))
         wound.segmentation = read_hints(*hints, fields.where("segmentation"));
     if (!wound.mask.empty() && wound.photo.empty())
@@ -294,13 +294,19 @@ Scene scene_of(const json& root, const std::filesystem::path& path, const std::s
     Fields fields(root, file);
     Scene scene;
     scene.head = beside(path, fields.text("head", ""));
+    wound::Healing healing; // of every wound, unless it says otherwise
+    if (const json* all = fields.get("healing"))
+        healing = read_healing(*all, fields.where("healing"), path, healing);
+    for (WoundScene& wound : scene.wounds)
+        wound.healing = healing;
     if (const json* wounds = fields.get("wounds")) {
         if (!wounds->is_array() || wounds->size() > std::size_t(shared::MAX_WOUNDS))
             fields.fail("wounds", "is " + wounds->dump().substr(0, 60),
                         fmt::format("give an array of at most {} wounds", shared::MAX_WOUNDS));
         scene.wounds.clear();
         for (std::size_t i = 0; i < wounds->size(); ++i)
-            scene.wounds.push_back(read_wound((*wounds)[i], fmt::format("{}/wounds/{}", file, i), path));
+            scene.wounds.push_back(
+                read_wound((*wounds)[i], fmt::format("{}/wounds/{}", file, i), path, healing));
     }
     scene.tissue = fields.text("tissue", scene.tissue);
     if (scene.tissue.ends_with(".json"))

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "apps/bake.hpp"
 #include "passes/reflectance_table.hpp"
@@ -145,9 +146,15 @@ Stage::Stage(const engine::Device& device, const Scene& scene, const Props& prop
     settle();
 }
 
-void Stage::update(const Scene& scene)
+void Stage::update(const Scene& scene, bool dragging)
 {
-    accept(make(scene));
+    const bool before = std::exchange(dragging_, dragging);
+    try {
+        accept(make(scene));
+    } catch (...) {
+        dragging_ = before;
+        throw;
+    }
 }
 
 void Stage::accept(Set set)
@@ -176,9 +183,25 @@ bool Stage::poll()
 
 void Stage::settle()
 {
+    if (dragging_)
+        update(Scene(set_.scene));
     while (pending()) {
         workshop_->wait();
         poll();
+    }
+}
+
+void Stage::foresee(const Scene& scene) const
+{
+    try {
+        const std::shared_ptr<const LoadedHead> head = workshop_->head(scene.head, set_.head);
+        for (std::size_t i = 0; i < scene.wounds.size(); ++i)
+            if (const std::string name = name_of(scene.wounds[i], i); head)
+                workshop_->fit(scene.wounds[i], head, name);
+            else
+                workshop_->begin(scene.wounds[i], name);
+    } catch (const cicatrix::InputError&) {
+        return; // tried again by update()
     }
 }
 
@@ -218,7 +241,7 @@ void Stage::place_wounds(Set& set) const
     for (std::size_t i = 0; i < set.placed.size(); ++i) {
         const WoundScene& wound = set.placed[i];
         const std::string name = name_of(wound, i);
-        std::shared_ptr<Fit> fit = workshop_->fit(wound, set.head, name);
+        std::shared_ptr<Fit> fit = workshop_->fit(wound, set.head, name, !dragging_);
         const bool exact = fit != nullptr;
         if (!exact) {
             set.complete = false;

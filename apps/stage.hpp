@@ -61,15 +61,21 @@ class Stage
     /// Shows another scene from the next declared frame on. Cheap enough for every event of a mouse that
     /// drags something. Throws cicatrix::InputError and stays as it is when a value is out of range, a wound
     /// is off the head or a tissue file is bad; other files' errors come from poll().
-    void update(const Scene& scene);
+    /// `dragging`: more are about to follow. Wounds are then not fitted to the skin of every place on the
+    /// way, which would take the time of the frames and crowd out what undo needs; the next update() without
+    /// it, of the same scene when the mouse rests, begins that.
+    void update(const Scene& scene, bool dragging = false);
     /// Takes what the workers have finished; true when the next frame differs by it. Throws
     /// cicatrix::InputError when one has failed: scene() is then back to the last one that was shown
     /// completely. Call it now and then while pending().
     bool poll();
     /// Whether workers are busy for the scene, so that a later frame will differ without another update().
     bool pending() const { return !set_.complete; }
-    /// Waits until everything is shown as the scene has it. Throws as poll().
+    /// Waits until everything is shown as the scene has it, also after dragging. Throws as poll().
     void settle();
+    /// Lets workers begin with what another scene needs, so that update() and settle() wait less for it. What
+    /// is wrong with it is told then.
+    void foresee(const Scene& scene) const;
     /// Shows the wounds' colours by any tissue, not only by one that a scene can name; until the next
     /// update() with another tissue.
     void set_tissue(const wound::HealingTissue& tissue);
@@ -140,6 +146,7 @@ class Stage
     const engine::Device* device_;
     std::shared_ptr<Workshop> workshop_;
     std::uint64_t seen_news_ = 0;
+    bool dragging_ = false;
     Set set_, whole_; // whole_: the last complete one
     /// Which wound on which day wounds_today_ holds; a border tells a wound's shape.
     struct Today

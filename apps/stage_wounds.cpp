@@ -247,6 +247,7 @@ std::shared_ptr<const LoadedHead> Workshop::head(const std::filesystem::path& fi
     if (head_failed_ && head_job_key_ == key)
         std::rethrow_exception(std::exchange(head_failed_, nullptr));
     if (!head_job_.valid()) {
+        head_failed_ = nullptr; // another's
         head_job_key_ = key;
         head_job_ = std::async(std::launch::async, load_head, file);
     }
@@ -267,7 +268,7 @@ Workshop::SharedBase Workshop::base(const WoundScene& wound, const std::string& 
 }
 
 std::shared_ptr<Fit> Workshop::fit(const WoundScene& wound, std::shared_ptr<const LoadedHead> head,
-                                   const std::string& name)
+                                   const std::string& name, bool begin)
 {
     const std::string key = fit_key(wound, *head);
     if (const auto found = std::ranges::find(fits_, key, &Entry::key); found != fits_.end()) {
@@ -281,7 +282,7 @@ std::shared_ptr<Fit> Workshop::fit(const WoundScene& wound, std::shared_ptr<cons
     }
     const std::string photograph = photograph_key(wound);
     const bool room =
-        jobs_.size() < most_jobs &&
+        begin && jobs_.size() < most_jobs &&
         std::size_t(std::ranges::count(jobs_, photograph, &Job::photograph)) < most_jobs_of_a_photograph;
     if (room && std::ranges::find(jobs_, key, &Job::key) == jobs_.end())
         jobs_.push_back({key, photograph, std::async(std::launch::async, [=, made = base(wound, name)] {

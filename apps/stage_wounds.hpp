@@ -74,10 +74,10 @@ class Workshop
                                            const std::shared_ptr<const LoadedHead>& current);
     /// A head that was read elsewhere.
     void put(std::shared_ptr<const LoadedHead> head) { head_ = std::move(head); }
-    /// The same for a wound. What there is no room for now must be asked for again when collect() returns
-    /// true.
+    /// The same for a wound. Unless `begin`, null is all that comes of one that is not ready. What there is
+    /// no room for now must be asked for again when collect() returns true.
     std::shared_ptr<Fit> fit(const WoundScene& wound, std::shared_ptr<const LoadedHead> head,
-                             const std::string& name);
+                             const std::string& name, bool begin = true);
     /// Starts preparing the wound's photograph, for which no head is needed.
     void begin(const WoundScene& wound, const std::string& name) { base(wound, name); }
 

@@ -1,8 +1,10 @@
 #include "apps/wound_commands.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
 
 #include "apps/output.hpp"
 #include "apps/scene_options.hpp"
@@ -22,37 +24,62 @@ struct FitCommand
     std::string table;
     std::filesystem::path out = "out/fit";
     bool robust = false;
-    std::string mean = "ratios";
+    std::string mean = "areas";
 };
+
+/// A parameter and its standard error, where it has one.
+std::string with_error(double value, double error)
+{
+    return std::isfinite(error) ? fmt::format("{:.4g} +- {:.2g}", value, error)
+                                : fmt::format("{:.4g}", value);
+}
+
+std::string after(double day)
+{
+    return std::isfinite(day) ? fmt::format("after {:.2f} days", day) : "never";
+}
 
 void print_fit(const wound::SeriesFit& fit)
 {
-    fmt::print("{} ({} days)\n  {:<12} {:>10} {:>8} {:>8} {:>8} {:>9}\n", fit.series.name,
-               fit.series.days.size(), "model", "delta", "gamma", "theta", "rmse", "aic");
+    fmt::print("{} ({} days{})\n  {:<12} {:>20} {:>18} {:>18} {:>8} {:>9}\n", fit.series.name,
+               fit.series.days.size(),
+               fit.series.left_out > 0 ? fmt::format(", {} rows left out", fit.series.left_out) : "", "model",
+               "delta", "gamma", "theta", "rmse", "aic");
     for (const wound::CurveFit& model : fit.models)
-        fmt::print("{} {:<12} {:>10.5g} {:>8.4g} {:>8.4g} {:>8.4f} {:>9.2f}\n",
-                   &model == &fit.best() ? "*" : " ", wound::name_of(model.model), model.curve.delta,
-                   model.curve.gamma, model.curve.theta, model.rmse, model.aic);
+        fmt::print("{} {:<12} {:>20} {:>18} {:>18} {:>8.4f} {:>9.2f}\n", &model == &fit.best() ? "*" : " ",
+                   wound::name_of(model.model), with_error(model.curve.delta, model.standard_errors[0]),
+                   with_error(model.curve.gamma, model.standard_errors[1]),
+                   with_error(model.curve.theta, model.standard_errors[2]), model.rmse, model.aic);
     const wound::H3& curve = fit.best().curve;
-    fmt::print(
-        "  half closed after {:.2f} days, 90 % after {:.2f}, 99 % after {:.2f}; largest ratio {:.3f}\n",
-        wound::half_time(curve), wound::day_below(curve, .1), wound::closure_day(curve),
-        wound::largest_ratio(curve).ratio);
+    const double largest = wound::largest_ratio(curve).ratio;
+    fmt::print("  half closed {}, 90 % {}, 99 % {}; largest ratio {}\n", after(wound::half_time(curve)),
+               after(wound::day_below(curve, .1)), after(wound::closure_day(curve)),
+               std::isfinite(largest) ? fmt::format("{:.3f}", largest) : "unbounded");
 }
 
 void fit(const FitCommand& command)
 {
     make_folder(command.out);
+    const std::vector<wound::AreaSeries> table = wound::read_area_table(std::filesystem::path(command.table));
     const std::vector<wound::SeriesFit> fits =
-        wound::fit_table(wound::read_area_table(std::filesystem::path(command.table)), command.table,
+        wound::fit_table(table, command.table,
                          {.robust = command.robust,
                           .mean = command.mean == "areas" ? wound::MeanOf::areas : wound::MeanOf::ratios});
-    for (const wound::SeriesFit& one : fits)
+    for (const wound::AreaSeries& one : table)
+        if (one.days.size() < 2)
+            fmt::print("{}: measured on one day only, counted in the means\n", one.name);
+    cv::Mat3b picture = wound::draw_fit(fits.back()); // the mean, or the only series
+    std::string drawn = fits.back().series.name;
+    for (const wound::SeriesFit& one : fits) {
         print_fit(one);
-    engine::write_png(command.out / "fit.png", wound::draw_fit(fits.back())); // the mean, or the only series
+        if (one.series.name == "mean " + one.series.group) {
+            cv::vconcat(picture.clone(), wound::draw_fit(one), picture);
+            drawn += ", " + one.series.name;
+        }
+    }
+    engine::write_png(command.out / "fit.png", picture);
     write_json(command.out / "fit.json", wound::fit_to_json(fits));
-    fmt::print("* preferred by AIC; fit.json and fit.png ({}) in {}\n", fits.back().series.name,
-               command.out.string());
+    fmt::print("* preferred by AIC; fit.json and fit.png ({}) in {}\n", drawn, command.out.string());
 }
 
 // ---- wound
@@ -101,7 +128,7 @@ void add_fit_command(CLI::App& program)
     CLI::App* command = program.add_subcommand("fit", "Fit healing curves to measured wound areas");
     command
         ->add_option("areas", options->table,
-                     "Table with columns day and area or ratio; optionally wound, weight, edge")
+                     "Table with columns day and area or ratio; optionally wound, group, weight, edge")
         ->required()
         ->type_name("AREAS.csv");
     command->add_option("--out", options->out, "Folder for fit.json and fit.png")
@@ -111,11 +138,19 @@ void add_fit_command(CLI::App& program)
                       "One bad measurement does not pull the curve (Huber's loss)");
     command
         ->add_option("--mean", options->mean,
-                     "Of several wounds: the mean of their ratios, or of their areas over that on day 0")
+                     "Of several wounds: the mean of their areas over that on day 0, or of their ratios")
         ->capture_default_str()
-        ->check(CLI::IsMember({"ratios", "areas"}));
-    command->footer("Example: cicatrix fit areas.csv --out fit\nPut the table into a scene: \"healing\": "
-                    "{\"areas\": \"areas.csv\"}");
+        ->check(CLI::IsMember({"areas", "ratios"}));
+    command->footer(
+        "Example: cicatrix fit areas.csv --out fit\n\n"
+        "  wound,day,area_reader1,edge_reader1,area_reader2,edge_reader2\n"
+        "  old-1,0,22.1,seen,21.5,seen\n"
+        "  old-1,3,17.4,seen,18.0,imagined\n"
+        "  young-1,0,25.0,seen,,\n\n"
+        "Areas of several readers are averaged; a row all of whose readers imagined the edge is left "
+        "out.\nEvery wound is fitted, then the mean of each group (a column group, or the name before "
+        "its first -)\nand of all. Put the table into a scene: \"healing\": {\"areas\": "
+        "\"areas.csv\", \"series\": \"mean old\"};\nwithout series it is the mean of all.");
     command->callback([options] { fit(*options); });
 }
 

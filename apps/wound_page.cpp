@@ -12,6 +12,7 @@
 #include "wound/depth.hpp"
 #include "wound/plot.hpp"
 #include "wound/warp.hpp"
+#include "wound/warp_ladder.hpp"
 
 namespace app {
 
@@ -227,10 +228,11 @@ nlohmann::json wound_to_json(const wound::PreparedWound& wound, const wound::Hea
     for (double r : {1., .9, .8, .6, .4, .2, .1, .05, .01}) {
         const wound::Warp warp = wound::make_warp(wound.flow, r);
         const wound::FoldCheck check = wound::check_folds(warp, wound.patch.mask.cols);
-        const double area = wound::moments_of(wound::warp_image(wound.patch.mask, warp)).area;
+        const double area =
+            wound::signed_area(wound::outline_today(warp, wound.border)); // a mask may miss it
         folds += check.folded_texels;
         warps.push_back({{"ratio", r},
-                         {"area_ratio", area / wound.area},
+                         {"area_ratio", area / wound::signed_area(wound.border)},
                          {"folds", check.folded_texels},
                          {"least_jacobian", check.least_jacobian}});
     }

@@ -88,8 +88,10 @@ LutTissue lut_tissue(std::span<const wound::TissueDay> rows, double last_day)
 ReflectanceLut add_reflectance_lut(engine::Graph& graph, std::string_view name, const LutTissue& tissue,
                                    wound::Rung rung, std::uint32_t width)
 {
-    if (tissue.table)
+    if (tissue.table) {
+        graph.keep(tissue.table);
         return {graph.import(name, *tissue.table)};
+    }
     assert(rung <= wound::Rung::Calibrated);
     const auto height = static_cast<std::uint32_t>(tissue.days.size());
     // Half floats: every device filters them linearly; their error, 2.4e-4 of the value, is below the table's

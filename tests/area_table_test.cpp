@@ -71,15 +71,39 @@ TEST(AreaTable, ReadersAreAveragedAndRowsThatAllImaginedLeftOut)
     EXPECT_THAT(table[0].days, ElementsAre(0, 2));
     EXPECT_THAT(table[0].ratios, ElementsAre(1, .5));
     EXPECT_THAT(table[1].ratios, ElementsAre(1, .25));
-    const auto mean = wound::mean_series(table);
+    const auto mean = wound::mean_series(table, wound::MeanOf::ratios);
     EXPECT_EQ(mean.name, "mean");
     EXPECT_THAT(mean.ratios, ElementsAre(1, .375));
+}
+
+TEST(AreaTable, GroupsAreNamedByTheirColumnOrTheBeginningOfTheWoundsNames)
+{
+    const std::string rows = "old-1,0,20,x\nold-1,4,10,x\nold-2,0,20,y\nold-2,4,16,y\n"
+                             "young-1,0,8,x\nyoung-1,4,2,x\n";
+    const auto named = wound::group_means(read("wound,day,area,note\n" + rows));
+    ASSERT_EQ(named.size(), 1U); // a group of one is no mean
+    EXPECT_EQ(named[0].name, "mean old");
+    EXPECT_THAT(named[0].ratios, ElementsAre(1, DoubleNear(.65, 1e-12)));
+    const auto column = wound::group_means(read("wound,day,area,group\n" + rows));
+    ASSERT_EQ(column.size(), 1U);
+    EXPECT_EQ(column[0].name, "mean x");
+    EXPECT_THAT(column[0].ratios, ElementsAre(1, DoubleNear(12. / 28, 1e-12)));
+    EXPECT_TRUE(wound::group_means(read("wound,day,area\na-1,0,2\na-1,1,1\na-2,0,2\na-2,1,1\n")).empty());
+}
+
+TEST(AreaTable, RowsLeftOutAreCounted)
+{
+    const auto table = read("wound,day,area,quality,weight\nA,0,9,seen,1\nA,1,8,imagined,1\nA,2,3,seen,0\n"
+                            "A,3,3,seen,\nB,0,4,imagined,1\n");
+    ASSERT_EQ(table.size(), 1U);
+    EXPECT_EQ(table[0].left_out, 2);
+    EXPECT_THAT(table[0].days, ElementsAre(0, 3));
 }
 
 TEST(AreaTable, TheMeanOfAreasGivesALargeWoundMoreSay)
 {
     const auto table = read("wound,day,area\na,0,30\na,4,24\nb,0,10\nb,4,2\nb,8,1\n");
-    EXPECT_THAT(wound::mean_series(table).ratios,
+    EXPECT_THAT(wound::mean_series(table, wound::MeanOf::ratios).ratios,
                 ElementsAre(1, DoubleNear(.5, 1e-12), DoubleNear(.1, 1e-12)));
     EXPECT_THAT(wound::mean_series(table, wound::MeanOf::areas).ratios,
                 ElementsAre(1, DoubleNear(13. / 20, 1e-12), DoubleNear(1. / 20, 1e-12)));
@@ -105,7 +129,10 @@ TEST(AreaTable, HostileTablesAreRefusedWithLineAndCure)
     EXPECT_THAT(refusal("day,area\n0,ten\n"), HasSubstr("\"ten\""));
     EXPECT_THAT(refusal("day,area\n0,1\n4\n"), HasSubstr("line 3 has 1 columns of 2"));
     EXPECT_THAT(refusal("day,area\n0,0\n4,1\n"), HasSubstr("the area on its first day is 0"));
-    EXPECT_THAT(refusal("7\n8\n"), HasSubstr("fewer than two columns"));
+    EXPECT_THAT(refusal("7\n8\n"), HasSubstr("a row has 1 columns"));
+    EXPECT_THAT(refusal("day,area\n0,5,5\n3,1,25\n"), HasSubstr("line 2 has 3 columns, the header 2"));
+    EXPECT_THAT(refusal("0,5,5\n3,1,25\n"), HasSubstr("where commas are decimal, separate by semicolons"));
+    EXPECT_THAT(refusal("day,area\n0,1\n3,1e308\n"), HasSubstr("times that of the first day"));
     EXPECT_THROW(wound::read_area_table(std::filesystem::path("/nonexistent/areas.csv")),
                  cicatrix::InputError);
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -160,6 +161,66 @@ TEST(Fit, TableOfSeveralWoundsGainsTheirMean)
     EXPECT_NEAR(json["series"][0]["half_time_days"].get<double>(), std::log(2) / .1, 1e-4);
     EXPECT_TRUE(json["series"][0]["models"]["h3"].contains("theta"));
     EXPECT_TRUE(json["series"][0]["models"]["exponential"]["gamma_se"].is_null());
+}
+
+/// A table as two readers write it: six wounds of two groups, noise on each, rows that both imagined far off.
+std::filesystem::path table_of_two_groups()
+{
+    const auto file = std::filesystem::temp_directory_path() / "cicatrix_fit_test_groups.csv";
+    std::ofstream table(file);
+    table << "wound,day,area_mm2_reader1,edge_reader1,area_mm2_reader2,edge_reader2\n";
+    std::mt19937 random(5);
+    std::normal_distribution<double> error(0, .02);
+    for (const std::string name : {"A8-1-L", "A8-1-R", "A8-2-L", "Y8-1-L", "Y8-1-R", "Y8-2-L"}) {
+        const H3 curve = name.starts_with("A8") ? H3{.0128, 1.98, 0, 0} : H3{.3593, 1.129, -.5229, 0};
+        const double first = 20 + double(random() % 10);
+        for (int day = 0; day <= 15; ++day) {
+            const double area = first * (wound::unhealed_ratio(curve, day) + (day > 0 ? error(random) : 0));
+            const bool imagined = day == 5 && name != "A8-1-R";
+            table << fmt::format("{},{},{:.4f},{},{:.4f},{}\n", name, day,
+                                 std::max(0., area) + (imagined ? 60 : 0), imagined ? "imagined" : "seen",
+                                 std::max(0., area) + (imagined ? 70 : 0),
+                                 imagined || day == 7 ? "imagined" : "partly_seen");
+        }
+    }
+    return file;
+}
+
+TEST(Fit, OneTableGivesTheMeanOfEachGroupAndASceneMayNameIt)
+{
+    const auto file = table_of_two_groups();
+    const auto fits = wound::fit_table(wound::read_area_table(file), "areas.csv");
+    ASSERT_EQ(fits.size(), 9U);
+    const SeriesFit &aged = fits[6], &young = fits[7];
+    EXPECT_EQ(aged.series.name, "mean A8");
+    EXPECT_EQ(young.series.name, "mean Y8");
+    EXPECT_EQ(fits[8].series.name, "mean");
+    EXPECT_EQ(aged.series.left_out, 2);
+    EXPECT_EQ(young.series.left_out, 3);
+    EXPECT_EQ(aged.series.days.size(), 16U); // one wound's edge was seen on day 5
+    EXPECT_EQ(young.series.days.size(), 15U);
+    EXPECT_LT(aged.models[2].rmse, .03);
+    EXPECT_GT(aged.models[0].rmse, .09);
+    EXPECT_LT(young.best().curve.theta, 0);
+    EXPECT_LT(young.models[2].rmse, .03);
+    EXPECT_GT(young.models[1].rmse, .05);
+    const double days_apart = wound::half_time(wound::curve_from_areas(file, "mean A8")) -
+                              wound::half_time(wound::curve_from_areas(file, "mean Y8"));
+    EXPECT_NEAR(days_apart, 2, .5);
+    try {
+        wound::curve_from_areas(file, "B9");
+        ADD_FAILURE() << "no such series";
+    } catch (const cicatrix::InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("mean A8, mean Y8, mean"), std::string::npos)
+            << error.what();
+    }
+    std::filesystem::remove(file);
+}
+
+TEST(Fit, ACurveThatNeverStopsGrowingHasNoLargestRatio)
+{
+    const auto fits = wound::fit_table({series({0, 1, 2, 3, 9}, {1, 1.2, 1.6, 2.2, 10})}, "areas.csv");
+    EXPECT_TRUE(wound::fit_to_json(fits)["series"][0]["largest_ratio"].is_null());
 }
 
 TEST(Fit, AreasFileGivesACurve)

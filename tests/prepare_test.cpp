@@ -123,7 +123,22 @@ TEST(Prepare, AOnePixelWoundAndOneThatNearlyFillsThePhotographWork)
 {
     auto photo = photograph({64, 64}, {32, 32}, [](double, double) { return 2.; });
     photo.mask(30, 20) = 255;
-    EXPECT_GE(wound::prepare(photo, small_patch()).control_points.size(), 8U);
+    const auto speck = wound::prepare(photo, small_patch());
+    EXPECT_GE(speck.control_points.size(), 8U);
+    const double pixel = 2 / speck.photo_side; // in patch units
+    EXPECT_NEAR(speck.area, pixel * pixel, .5 * pixel * pixel);
+    for (double r : {1.4, .6, .2, .05})
+        EXPECT_EQ(wound::check_folds(wound::make_warp(speck.flow, r), 256).folded_texels, 0) << r;
+    photo.mask(cv::Rect(12, 30, 40, 1)).setTo(255);
+    const auto line = wound::prepare(photo, small_patch());
+    EXPECT_NEAR(line.area * line.photo_side * line.photo_side / 4, 40, 16);
+    EXPECT_EQ(wound::check_folds(wound::make_warp(line.flow, .05), 256).folded_texels, 0);
+    photo.mask.setTo(0);
+    for (int i = 12; i < 52; ++i) // pixels that touch at their corners only
+        photo.mask(i, i) = 255;
+    const auto diagonal = wound::prepare(photo, small_patch());
+    EXPECT_NEAR(wound::signed_area(diagonal.border), diagonal.area, .1 * diagonal.area);
+    EXPECT_NEAR(diagonal.area * diagonal.photo_side * diagonal.photo_side / 4, 40, 16);
     photo.mask.setTo(0);
     photo.mask(cv::Rect(1, 1, 62, 62)).setTo(255);
     const auto filling = wound::prepare(photo, small_patch());

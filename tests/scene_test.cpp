@@ -46,6 +46,28 @@ TEST_F(SceneFile, EmptyObjectIsTheDefaultScene)
     EXPECT_EQ(app::to_json(read("{}")), app::to_json(app::Scene{}));
 }
 
+TEST_F(SceneFile, AreasGiveAWoundItsCurveAndTheScenesHealingEveryWound)
+{
+    folder_.with("areas.csv",
+                 "wound,day,area\nold-1,0,20\nold-1,5,12.13\nold-1,20,2.71\nold-2,0,20\nold-2,5,12.13\n"
+                 "old-2,20,2.71\nyoung-1,0,20\nyoung-1,5,7.36\nyoung-1,20,.366\n");
+    const auto half = [](const app::WoundScene& wound) { return wound::half_time(wound.healing.curve); };
+    EXPECT_NEAR(half(read(R"({"healing": {"areas": "areas.csv", "series": "mean old"}})").wounds.at(0)), 6.93,
+                .05);
+    const app::Scene scene =
+        read(R"({"healing": {"areas": "areas.csv", "series": "young-1", "model": "contraction"},
+        "wounds": [{}, {"healing": {"areas": "areas.csv", "series": "old-1"}}, {"healing": {"model": "face"}}]})");
+    EXPECT_NEAR(half(scene.wounds.at(0)), 3.47, .05);
+    EXPECT_NEAR(half(scene.wounds.at(1)), 6.93, .05);
+    EXPECT_EQ(scene.wounds.at(1).healing.model, wound::HealingModel::contraction);
+    EXPECT_NEAR(half(scene.wounds.at(2)), 3.47, .05);
+    EXPECT_EQ(scene.wounds.at(2).healing.model, wound::HealingModel::face);
+    EXPECT_THAT(refused(R"({"healing": {"areas": "areas.csv", "series": "none"}})"),
+                HasSubstr("mean old, mean"));
+    EXPECT_THAT(refused(R"({"healing": {"series": "old-1"}})"), HasSubstr("/healing/series"));
+    EXPECT_THAT(refused(R"({"healing": {"areas": "other.csv"}})"), HasSubstr("other.csv: cannot be read"));
+}
+
 TEST_F(SceneFile, WhatIsWrittenReadsBackAsTheSameScene)
 {
     app::Scene scene;

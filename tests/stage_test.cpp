@@ -113,6 +113,26 @@ TEST_F(StageTest, ShowsAMovedWoundAtOnceAndInTheEndAsIfItHadAlwaysBeenThere)
     EXPECT_EQ(largest_difference(window.picture(), before), 0);
 }
 
+TEST_F(StageTest, ALongDragIsUndoneAtOnceAndEndsAsIfTheWoundHadAlwaysBeenThere)
+{
+    const app::Scene scene = small::scene(small::head());
+    Window window(scene);
+    const cv::Mat4b before = window.picture();
+    app::Scene dragged = scene;
+    for (int i = 0; i < 40; ++i) { // more places than a workshop remembers
+        dragged.wounds[0].place = passes::FacePoint{.3 - .005 * i, -.15};
+        window.stage.update(dragged, true);
+        EXPECT_TRUE(window.stage.pending());
+        EXPECT_GT(i % 10 == 0 ? largest_difference(window.picture(), before) : 255, 30) << i;
+    }
+    window.stage.settle();
+    Window fresh(dragged);
+    EXPECT_EQ(largest_difference(window.picture(), fresh.picture()), 0);
+    window.stage.update(scene);
+    EXPECT_FALSE(window.stage.pending());
+    EXPECT_EQ(largest_difference(window.picture(), before), 0);
+}
+
 TEST_F(StageTest, WidthRollDepthAndHealingEndAsInANewStage)
 {
     app::Scene scene = small::scene(small::head());

@@ -116,7 +116,7 @@ Parameters best_start(const AreaSeries& series, const std::vector<double>& weigh
     std::stable_sort(starts.begin(), starts.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     starts.resize(std::min(starts.size(), kFollowed));
-    Parameters best;
+    Parameters best = starts.front().second;
     double least = std::numeric_limits<double>::infinity();
     for (const auto& [unused, start] : starts) {
         const Parameters found = minimise(series, weights, free, start);
@@ -214,7 +214,7 @@ const char* name_of(CurveModel model)
 SeriesFit fit_series(const AreaSeries& series, std::string_view where, const FitOptions& options)
 {
     if (series.days.size() < 2)
-        throw cicatrix::InputError(where, fmt::format("wound {} was measured on one day only", series.name),
+        throw cicatrix::InputError(where, fmt::format("{}: measured on one day only", series.name),
                                    "give areas on two days or more");
     SeriesFit fit{series, {}, 0};
     for (CurveModel model : kCurveModels)
@@ -234,14 +234,26 @@ std::vector<SeriesFit> fit_table(const std::vector<AreaSeries>& table, std::stri
     for (const AreaSeries& series : table)
         if (series.days.size() >= 2 || table.size() == 1)
             fits.push_back(fit_series(series, where, options));
+    for (const AreaSeries& mean : group_means(table, options.mean))
+        fits.push_back(fit_series(mean, where, options));
     if (table.size() > 1)
         fits.push_back(fit_series(mean_series(table, options.mean), where, options));
     return fits;
 }
 
-H3 curve_from_areas(const std::filesystem::path& table)
+H3 curve_from_areas(const std::filesystem::path& table, std::string_view series)
 {
-    return fit_table(read_area_table(table), table.string()).back().best().curve;
+    const std::vector<SeriesFit> fits = fit_table(read_area_table(table), table.string());
+    if (series.empty())
+        return fits.back().best().curve;
+    std::string names;
+    for (const SeriesFit& fit : fits) {
+        if (fit.series.name == series)
+            return fit.best().curve;
+        names += (names.empty() ? "" : ", ") + fit.series.name;
+    }
+    throw cicatrix::InputError(table.string(), fmt::format("has no series \"{}\"", series),
+                               "name one of: " + names);
 }
 
 Peak largest_ratio(const H3& curve)
@@ -252,6 +264,8 @@ Peak largest_ratio(const H3& curve)
     for (double day = 1e-4; day < 1e6; day *= 1.005)
         if (const double ratio = unhealed_ratio(curve, day); ratio > peak.ratio)
             peak = {ratio, day};
+    if (peak.day > 9e5) // it still rises there
+        peak = {std::numeric_limits<double>::infinity(), peak.day};
     return peak;
 }
 
@@ -275,12 +289,13 @@ nlohmann::json fit_to_json(const std::vector<SeriesFit>& fits)
         const H3& curve = fit.best().curve;
         all.push_back({{"name", fit.series.name},
                        {"n", fit.series.days.size()},
+                       {"left_out", fit.series.left_out},
                        {"models", models},
                        {"preferred", name_of(fit.best().model)},
                        {"half_time_days", finite_or_null(half_time(curve))},
                        {"day_90_percent_closed", finite_or_null(day_below(curve, .1))},
                        {"day_99_percent_closed", finite_or_null(day_below(curve, .01))},
-                       {"largest_ratio", largest_ratio(curve).ratio}});
+                       {"largest_ratio", finite_or_null(largest_ratio(curve).ratio)}});
     }
     return {{"series", all}};
 }

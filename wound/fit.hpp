@@ -25,7 +25,7 @@ const char* name_of(CurveModel model);
 struct FitOptions
 {
     bool robust = false; // Huber's loss: one bad measurement does not pull the curve
-    MeanOf mean = MeanOf::ratios;
+    MeanOf mean = MeanOf::areas;
 };
 
 struct CurveFit
@@ -51,14 +51,17 @@ struct SeriesFit
 /// Throws cicatrix::InputError (`where` names the table) for a series of fewer than two days.
 SeriesFit fit_series(const AreaSeries& series, std::string_view where, const FitOptions& options = {});
 
-/// Every series and, when there are several, their mean.
+/// Every series measured on two days or more and, when there are several, the means of their groups and,
+/// last, of all.
 std::vector<SeriesFit> fit_table(const std::vector<AreaSeries>& table, std::string_view where,
                                  const FitOptions& options = {});
 
-/// The preferred curve of a table's mean (or of its only wound): what a scene's "areas" file stands for.
-H3 curve_from_areas(const std::filesystem::path& table);
+/// The preferred curve of a table's mean (or of its only wound), or of the series named: what a scene's
+/// "areas" file stands for. Throws cicatrix::InputError when there is no series of that name.
+H3 curve_from_areas(const std::filesystem::path& table, std::string_view series = {});
 
-/// The largest ratio of the curve and the day on which it is reached.
+/// The largest ratio of the curve, infinite for one that never stops growing, and the day on which it is
+/// reached.
 struct Peak
 {
     double ratio = 1, day = 0;

@@ -107,14 +107,19 @@ cv::Mat1f resample_mask(const cv::Mat1b& mask, const Resampling& resample)
 {
     cv::Mat1f coverage;
     mask.convertTo(coverage, CV_32F, 1 / 255.);
-    cv::GaussianBlur(coverage, coverage, {}, 1.2);
+    // Less where the wound is but a few pixels wide: it would grow by the smoothing.
+    cv::Mat1f inward;
+    cv::distanceTransform(mask > 127, inward, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+    double half_width = 0;
+    cv::minMaxLoc(inward, nullptr, &half_width);
+    cv::GaussianBlur(coverage, coverage, {}, std::clamp(.4 * half_width, .5, 1.2));
     cv::Mat1f soft = resample(coverage, cv::BORDER_CONSTANT);
     const double gain = std::max(1 / resample.pixels_per_texel, 1.);
     cv::Mat1f sharp = cv::min(cv::max((soft - .5F) * gain + .5F, 0), 1);
-    // A speck of a few pixels is lowered below one half by the smoothing: its own peak is the reference then.
+    // A speck of a few pixels is lowered by the smoothing: its own peak is the reference then.
     double peak = 0;
     cv::minMaxLoc(soft, nullptr, &peak);
-    if (peak > 0 && peak < .75)
+    if (peak > 0 && peak < .98)
         sharp = cv::min(cv::max((soft / peak - .5F) * gain + .5F, 0), 1);
     return sharp;
 }

@@ -63,9 +63,12 @@ Layer new_epithelium(const ChromophoreSkin& skin, double day, double closure_day
     const double months = months_since_closure(day, closure_day);
     const double darkening = .35 * std::exp(-.235 * months) *
                              (1 - std::exp(-2 * months)); // measured: +24 % at 1, +15 % at 3 months
+    // All of the pigment is back at the closure, from where the measured excess counts, however thin it lies.
+    const double pigment = .3 + .7 * std::min(1., std::max(day, 0.) / closure_day);
+    const double thickness = epithelium_thickness(day, closure_day);
     Chromophores content = skin.epidermis;
-    content.melanosomes *= (.3 + .7 * epithelium_maturity(day, closure_day)) * (1 + darkening);
-    return epidermis_layer(content, skin.epidermis_mm * epithelium_thickness(day, closure_day));
+    content.melanosomes *= pigment * (1 + darkening) / thickness;
+    return epidermis_layer(content, skin.epidermis_mm * thickness);
 }
 
 // Before the closure the ring is granulation tissue that loses its vessels; from then on the scar's excess

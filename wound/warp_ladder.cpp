@@ -119,10 +119,7 @@ LadderRow measure(const LadderShape& shape, const ContractionFlow& flow, WarpRun
         }
     row.error_texels = std::max(row.error_texels, row.wound_error_texels);
 
-    Polyline today;
-    for (cv::Point2d p : shape.border)
-        today.push_back(today_of(warp, p));
-    row.area_error = signed_area(today) / (ratio * signed_area(shape.border)) - 1;
+    row.area_error = signed_area(outline_today(warp, shape.border)) / (ratio * signed_area(shape.border)) - 1;
     // The thin-plate rungs cost seconds per check at full size; a quarter of it finds the same folds.
     const bool slow = rung == WarpRung::dense || rung == WarpRung::composed;
     const FoldCheck check = check_folds(warp, slow ? kTexels / 4 : kTexels);
@@ -170,6 +167,14 @@ std::string header(std::string_view second)
 }
 
 } // namespace
+
+Polyline outline_today(const Warp& warp, const Polyline& day0)
+{
+    Polyline today;
+    for (cv::Point2d p : day0)
+        today.push_back(today_of(warp, p));
+    return today;
+}
 
 const char* name_of(WarpRung rung)
 {

@@ -41,6 +41,9 @@ std::vector<LadderRow> measure_ladder(const std::vector<LadderShape>& shapes);
 /// two Markdown tables.
 std::string ladder_markdown(const std::vector<LadderRow>& rows);
 
+/// Where the warp carries a curve of day 0: the forward map, by Newton's method.
+Polyline outline_today(const Warp& warp, const Polyline& day0);
+
 const char* name_of(WarpRung rung);
 
 } // namespace wound
