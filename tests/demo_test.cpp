@@ -235,6 +235,12 @@ TEST_F(DemoWindowTest, TurnsTheHeadAndFollowsItsWindowsSize)
     idle = demo.idle([](const json& now) { return now["window"] == json({1500, 960}); }, "the larger window");
     EXPECT_GT(skin_pixels(screen(idle, "view")), box(idle["view"]).area() / 20);
     EXPECT_GT(red_pixels(screen(idle, "timeline")), 100);
+
+    desktop_.user({"search", "--name", "Cicatrix", "windowunmap", "--sync"});
+    EXPECT_EQ(skin_pixels(screen(idle, "view")), 0) << "the window is gone";
+    desktop_.user({"search", "--name", "Cicatrix", "windowmap", "--sync"});
+    idle = demo.idle(at_least("frames", idle["frames"].get<int>() + 1), "the window back");
+    EXPECT_GT(skin_pixels(screen(idle, "view")), box(idle["view"]).area() / 20);
     quit(demo);
 }
 
