@@ -1,9 +1,9 @@
 #include "apps/batch.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <fmt/format.h>
 #include <fstream>
-#include <future>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -78,6 +78,16 @@ void draw_variation(Renderer& renderer, const Stage& stage, const Variation& var
     engine::rename_over(partial, folder);
 }
 
+void set_stage(std::optional<Stage>& stage, const engine::Device& device, const Scene& scene)
+{
+    if (!stage) {
+        stage.emplace(device, scene, Stage::prepare(scene));
+        return;
+    }
+    stage->update(scene);
+    stage->settle();
+}
+
 std::string csv_text(const json& value)
 {
     const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
@@ -116,21 +126,15 @@ BatchResult run_batch(Renderer& renderer, const std::vector<Variation>& variatio
 
     Progress progress;
     progress.expect(missing.size());
-    const auto prepare = [&](std::size_t i) {
-        return std::async(std::launch::async, [&scene = missing[i]->scene] { return Stage::prepare(scene); });
-    };
-    // While one is drawn, the wounds of the next are made.
-    std::future<Stage::Props> next;
-    if (!missing.empty())
-        next = prepare(0);
+    const auto start = std::chrono::steady_clock::now();
+    std::optional<Stage> stage; // made once: from one variation to the next only what differs is made anew
     for (std::size_t i = 0; i < missing.size(); ++i) {
         progress.show(missing[i]->name);
-        std::future<Stage::Props> mine = std::move(next);
-        if (i + 1 < missing.size())
-            next = prepare(i + 1);
         try {
-            const Stage stage(renderer.device, missing[i]->scene, mine.get());
-            draw_variation(renderer, stage, *missing[i], options);
+            set_stage(stage, renderer.device, missing[i]->scene);
+            if (i + 1 < missing.size())
+                stage->foresee(missing[i + 1]->scene);
+            draw_variation(renderer, *stage, *missing[i], options);
             ++result.drawn;
         } catch (const cicatrix::InputError& error) {
             progress.clear();
@@ -139,6 +143,7 @@ BatchResult run_batch(Renderer& renderer, const std::vector<Variation>& variatio
         }
         progress.step();
     }
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }
 

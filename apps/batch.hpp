@@ -22,6 +22,7 @@ struct BatchOptions
 struct BatchResult
 {
     std::size_t drawn = 0, kept = 0;
+    double seconds = 0;                // spent on those that were not kept
     std::vector<std::string> failures; // "NAME: what went wrong"
 };
 

@@ -69,6 +69,8 @@ void run(const CommandOptions& options)
     const BatchResult result = run_batch(renderer, mine, options.batch);
     fmt::print("{} variations drawn, {} kept, {} failed, in {}\n", result.drawn, result.kept,
                result.failures.size(), options.batch.out.string());
+    if (result.drawn > 0)
+        fmt::print("{:.0f} variations per minute\n", 60 * double(result.drawn) / result.seconds);
     if (!result.failures.empty())
         throw cicatrix::InputError(options.variations.string(),
                                    fmt::format("{} of {} variations failed, the first is {}",

@@ -191,6 +191,20 @@ void Stage::settle()
     }
 }
 
+void Stage::foresee(const Scene& scene) const
+{
+    try {
+        const std::shared_ptr<const LoadedHead> head = workshop_->head(scene.head, set_.head);
+        for (std::size_t i = 0; i < scene.wounds.size(); ++i)
+            if (const std::string name = name_of(scene.wounds[i], i); head)
+                workshop_->fit(scene.wounds[i], head, name);
+            else
+                workshop_->begin(scene.wounds[i], name);
+    } catch (const cicatrix::InputError&) {
+        return; // tried again by update()
+    }
+}
+
 Stage::Set Stage::make(const Scene& scene) const
 {
     check(scene);

@@ -73,6 +73,9 @@ class Stage
     bool pending() const { return !set_.complete; }
     /// Waits until everything is shown as the scene has it, also after dragging. Throws as poll().
     void settle();
+    /// Lets workers begin with what another scene needs, so that update() and settle() wait less for it. What
+    /// is wrong with it is told then.
+    void foresee(const Scene& scene) const;
     /// Shows the wounds' colours by any tissue, not only by one that a scene can name; until the next
     /// update() with another tissue.
     void set_tissue(const wound::HealingTissue& tissue);

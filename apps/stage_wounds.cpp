@@ -247,6 +247,7 @@ std::shared_ptr<const LoadedHead> Workshop::head(const std::filesystem::path& fi
     if (head_failed_ && head_job_key_ == key)
         std::rethrow_exception(std::exchange(head_failed_, nullptr));
     if (!head_job_.valid()) {
+        head_failed_ = nullptr; // another's
         head_job_key_ = key;
         head_job_ = std::async(std::launch::async, load_head, file);
     }

@@ -10,6 +10,7 @@
 #include "apps/coco.hpp"
 #include "apps/json_fields.hpp"
 #include "apps/variations.hpp"
+#include "engine/file.hpp"
 #include "engine/image_io.hpp"
 #include "shaders/shared/labels.h"
 #include "tests/process.hpp"
@@ -289,13 +290,47 @@ TEST_F(Batch, SharesMakeTheWholeAndAStoppedOneGoesOn)
 TEST_F(Batch, AFailingVariationDoesNotStopTheOthers)
 {
     engine::write_png(folder_ / "blank.png", cv::Mat3b(64, 64, cv::Vec3b(200, 160, 140)));
-    folder_.with("table.csv", "name,wounds.0.photo,days\nbad,blank.png,0\ngood,,0\n");
+    folder_.with("broken.glb", "no head");
+    folder_.with("table.csv", "name,head,wounds.0.photo,wounds.0.at,days\n"
+                              "bad,,blank.png,,0\n"
+                              "good,,,,0\n"
+                              "headless,broken.glb,,,0\n"
+                              "astray,,,\"[2.9, 2.9]\",0\n"
+                              "worse,,blank.png,,0\n"
+                              "late,,,chin,9\n");
     const Outcome outcome = batch({"--out", (folder_ / "out").string()});
     EXPECT_EQ(outcome.code, 1);
-    EXPECT_THAT(outcome.err, HasSubstr("failed: bad: "));
-    EXPECT_THAT(outcome.err, HasSubstr("1 of 2 variations failed"));
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "out/good/variation.json"));
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "out/bad"));
+    for (const char* name : {"bad", "headless", "astray", "worse"}) {
+        EXPECT_THAT(outcome.err, HasSubstr(fmt::format("failed: {}: ", name)));
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / name));
+    }
+    EXPECT_THAT(outcome.err, HasSubstr("4 of 6 variations failed"));
+    for (const char* name : {"good", "late"})
+        EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / name / "variation.json"));
+}
+
+TEST_F(Batch, NoVariationShowsWhatCameBeforeIt)
+{
+    std::filesystem::copy_file(head_, folder_ / "other.glb");
+    folder_.with("table.csv",
+                 "name,head,tissue,wounds.0.kind,wounds.0.at,wounds.1.at,lights.0.azimuth_deg,days\n"
+                 "a,,light,laceration,cheek,chin,-40,5\n"
+                 "b,other.glb,dark,avulsion,forehead,,30,\"2,20\"\n"
+                 "c,,light,laceration,cheek,,-40,5\n");
+    ASSERT_EQ(batch({"--out", (folder_ / "together").string()}).code, 0);
+    for (const char* share : {"1/3", "2/3", "3/3"})
+        ASSERT_EQ(batch({"--out", (folder_ / "alone").string(), "--share", share}).code, 0);
+    int pictures = 0;
+    for (const auto& file : std::filesystem::recursive_directory_iterator(folder_ / "alone")) {
+        if (file.path().extension() != ".png" && file.path().extension() != ".exr")
+            continue;
+        const auto twin = folder_ / "together" / std::filesystem::relative(file.path(), folder_ / "alone");
+        constexpr std::size_t most_bytes = 1 << 20;
+        EXPECT_TRUE(engine::read_file(file.path(), most_bytes) == engine::read_file(twin, most_bytes))
+            << twin;
+        ++pictures;
+    }
+    EXPECT_GT(pictures, 20);
 }
 
 TEST_F(Batch, CaptureWritesLabelsBesideItsPictures)
