@@ -50,6 +50,20 @@ Polyline cut()
     });
 }
 
+/// A disk that the photograph's edge cuts in half.
+Polyline half_disk()
+{
+    constexpr int kPoints = 300;
+    Polyline curve;
+    for (int i = 0; i <= kPoints; ++i) {
+        const double angle = std::numbers::pi * (.5 - static_cast<double>(i) / kPoints);
+        curve.emplace_back(.45 * std::cos(angle) - .19, .45 * std::sin(angle));
+    }
+    for (int i = 1; i < kPoints; ++i)
+        curve.emplace_back(-.19, -.45 + .9 * i / kPoints);
+    return curve;
+}
+
 cv::Point2d centroid_of(const Polyline& curve)
 {
     cv::Point2d sum;
@@ -203,6 +217,7 @@ std::vector<LadderShape> ladder_shapes()
                                      {}},
                                     {"crescent", crescent(), {}},
                                     {"cut 20:1", cut(), {}},
+                                    {"at the photo's edge", half_disk(), {}},
                                     {"near the frame", polar([](double) { return .28; }, {.6, .1}), {}}};
     for (LadderShape& shape : shapes)
         shape.centroid = centroid_of(shape.border);
