@@ -222,11 +222,10 @@ TEST_F(DemoWindowTest, TurnsTheHeadAndFollowsItsWindowsSize)
         "the head turned");
     EXPECT_GT(cv::norm(before, screen(idle, "view"), cv::NORM_L1) / double(before.total()), 3);
     // Small while it turned, whole again at rest.
-    const cv::Mat3b turned = screen(idle, "view");
     fill_in(demo, "ctrl+s", folder_ / "turned.json");
     key("Return");
-    demo.idle([](const json& now) { return now["dialog"] == 0; }, "the scene saved");
-    expect_as_captured(turned, folder_ / "turned.json");
+    idle = demo.idle([](const json& now) { return now["dialog"] == 0; }, "the scene saved");
+    expect_as_captured(screen(idle, "view"), folder_ / "turned.json");
 
     desktop_.user({"search", "--name", "Cicatrix", "windowsize", "900", "640"});
     idle = demo.idle([](const json& now) { return now["window"] == json({900, 640}); }, "the smaller window");
