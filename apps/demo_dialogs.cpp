@@ -81,8 +81,16 @@ void draw_save_scene(DemoState& state)
         state.wishes.save_scene = state.entries.path;
 }
 
+void say_split(const DemoState& state)
+{
+    if (state.compare != Compare::Nothing)
+        ImGui::TextDisabled("Both sides of the split view, as the divider stands.");
+}
+
 void draw_save_picture(DemoState& state)
 {
+    ImGui::TextDisabled("The face as the camera stands, on this day, without the controls.");
+    say_split(state);
     const bool entered = path_field(state, "file");
     size_field(state);
     if (buttons(state, save_or_replace(state.entries.path), !state.entries.path.empty()) || entered)
@@ -92,6 +100,7 @@ void draw_save_picture(DemoState& state)
 void draw_film(DemoState& state)
 {
     ImGui::TextDisabled("All days of the timeline, as the camera stands.");
+    say_split(state);
     const bool entered = path_field(state, "file");
     size_field(state);
     ImGui::SetNextItemWidth(160 * state.scale);
@@ -125,6 +134,7 @@ void draw_photo(DemoState& state)
                                 .6f * window.y / float(entries.pixels[1]), 3 * state.scale});
     const ImVec2 size(float(entries.pixels[0]) * fit, float(entries.pixels[1]) * fit);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
+    entries.shown = {corner.x, corner.y, size.x, size.y};
     ImGui::Image(engine::UiRenderer::texture_id(*entries.picture), size);
     ImGui::SetCursorScreenPos(corner);
     ImGui::InvisibleButton("photo", size);
@@ -154,8 +164,12 @@ void draw_area(DemoState& state)
                         "Without one, the wound is looked for in the whole photo.");
     if (state.entries.picture)
         draw_photo(state);
-    if (buttons(state, state.entries.rectangle ? "Use this area" : "Whole photo"))
+    const bool entered =
+        ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) && !ImGui::IsWindowAppearing();
+    if (buttons(state, state.entries.rectangle ? "Use this area" : "Whole photo") || entered) {
+        state.dialog = Dialog::None;
         state.wishes.use_photo = true;
+    }
 }
 
 struct DialogPage

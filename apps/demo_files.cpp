@@ -187,7 +187,7 @@ void DemoWindow::open_scene(const std::filesystem::path& file)
 {
     const Scene scene = read_scene(file);
     stage_->update(scene); // throws what it does not take, before anything here changes
-    state_.scene = scene;
+    on_disk_ = state_.scene = scene;
     state_.scene_file = file;
     state_.selected.reset();
     state_.playback = {.day = scene.days.front(), .days_per_second = state_.playback.days_per_second};
@@ -252,9 +252,24 @@ void DemoWindow::save_scene(std::filesystem::path file)
         file += ".json";
     attempt([&] {
         app::save_scene(file, state_.scene);
+        on_disk_ = state_.scene;
         state_.scene_file = file;
         state_.notices.say(fmt::format("Saved {}", file.string()), now_s());
     });
+}
+
+cv::Mat3b DemoWindow::picture_of(double day, const DrawOptions& options)
+{
+    picture_ = VK_NULL_HANDLE; // the executor makes room for another size
+    const passes::Camera camera = stage_->camera();
+    cv::Mat3b picture = draw(*renderer_, *stage_, {day, "", camera, ""}, options).picture;
+    if (!compared_)
+        return picture;
+    const cv::Mat3b right =
+        draw(*renderer_, *compared_, {compared_day(day), "", camera, ""}, options).picture;
+    const int divider = int(std::lround(state_.divider * picture.cols));
+    right.colRange(divider, right.cols).copyTo(picture.colRange(divider, picture.cols));
+    return picture;
 }
 
 void DemoWindow::save_picture(std::filesystem::path file)
@@ -264,10 +279,7 @@ void DemoWindow::save_picture(std::filesystem::path file)
     attempt([&] {
         DrawOptions options;
         options.size = {std::uint32_t(state_.entries.size[0]), std::uint32_t(state_.entries.size[1])};
-        picture_ = VK_NULL_HANDLE; // the executor makes room for the other size
-        const Drawing drawing = draw(
-            *renderer_, *stage_, {state_.playback.day, "", stage_->camera(), file.stem().string()}, options);
-        engine::write_png(file, cv::Mat3b(drawing.picture));
+        engine::write_png(file, picture_of(state_.playback.day, options));
         state_.notices.say(fmt::format("Saved {}", file.string()), now_s());
     });
     settle_ = 2;
@@ -286,7 +298,6 @@ void DemoWindow::start_film(std::filesystem::path file)
             std::max<std::size_t>(2, std::size_t(entries.seconds * entries.frames_per_second));
         recording.film = std::make_unique<Film>(file, recording.options.size, entries.frames_per_second);
         recording_ = std::move(recording);
-        picture_ = VK_NULL_HANDLE; // the executor makes room for the other size
         state_.playback.playing = false;
         state_.dialog = Dialog::Recording;
     });
@@ -309,8 +320,7 @@ void DemoWindow::record_picture()
     try {
         Recording& now = *recording_;
         const double day = state_.playback.axis.day_at(double(now.next) / double(now.pictures - 1));
-        const cv::Mat3b picture =
-            draw(*renderer_, *stage_, {day, "", stage_->camera(), "film"}, now.options).picture;
+        const cv::Mat3b picture = picture_of(day, now.options);
         now.film->add(picture);
         cv::Mat3b preview;
         cv::resize(picture, preview, {480, std::max(1, 480 * picture.rows / picture.cols)}, 0, 0,

@@ -92,7 +92,7 @@ constexpr std::array<std::array<const char*, 2>, 8> gestures{{
 
 } // namespace
 
-void press(DemoState& state, const engine::KeyPress& key)
+void press(DemoState& state, const engine::KeyPress& key, bool typing)
 {
     if (state.dialog != Dialog::None) {
         if (state.dialog == Dialog::Recording)
@@ -101,6 +101,8 @@ void press(DemoState& state, const engine::KeyPress& key)
             state.dialog = Dialog::None;
         return;
     }
+    if (typing && !key.control)
+        return;
     for (const Shortcut& shortcut : shortcuts)
         if (shortcut.key == key.key && shortcut.control == key.control && shortcut.shift == key.shift &&
             !key.alt) {

@@ -47,8 +47,8 @@ void draw_light(DemoState& state)
         LightScene& light = state.scene.lights[i];
         ImGui::PushID(int(i));
         ImGui::TextDisabled(i == 0 ? "key light" : i == 1 ? "fill light" : "light %d", int(i) + 1);
-        slider("azimuth", light.from.azimuth_deg, -180, 180, "%.0f deg");
-        slider("elevation", light.from.elevation_deg, -89, 89, "%.0f deg");
+        slider("azimuth", light.from.azimuth_deg, -180, 180, "%.0f°");
+        slider("elevation", light.from.elevation_deg, -89, 89, "%.0f°");
         slider("strength", light.intensity, 0, 4, "%.2f");
         ImGui::PopID();
     }
@@ -91,7 +91,7 @@ void draw_comparison(DemoState& state)
     };
     choice("off", Compare::Nothing);
     ImGui::SameLine();
-    choice("mode", Compare::Mode);
+    choice("other mode", Compare::Mode);
     ImGui::SameLine();
     choice("day 0", Compare::Day0);
     if (state.kept) {

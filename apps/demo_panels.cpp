@@ -37,7 +37,7 @@ void draw_list(DemoState& state)
 void draw_wound(DemoState& state, WoundScene& wound)
 {
     slider("width", wound.width_mm, 4, 80, "%.0f mm");
-    slider("roll", wound.roll_deg, -180, 180, "%.0f deg");
+    slider("roll", wound.roll_deg, -180, 180, "%.0f°");
     slider("depth", wound.depth_factor, 0, 3, "%.2f x");
     if (wound.photo.empty()) {
         if (ImGui::BeginCombo("kind", wound.kind.c_str())) {

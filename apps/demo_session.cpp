@@ -107,6 +107,12 @@ std::optional<double> Quality::due_in(double now) const
     return std::max(0.0, moving_until_ - now);
 }
 
+void Notices::add(Notice notice)
+{
+    std::erase_if(list_, [&](const Notice& earlier) { return earlier.text == notice.text; });
+    list_.push_back(std::move(notice));
+}
+
 void Notices::drop_old(double now)
 {
     std::erase_if(list_, [&](const Notice& notice) { return !notice.error && notice.until <= now; });

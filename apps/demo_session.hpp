@@ -84,8 +84,8 @@ struct Notice
 class Notices
 {
   public:
-    void say(const std::string& text, double now) { list_.push_back({text, false, now + 6}); }
-    void fail(const std::string& text) { list_.push_back({text, true, 0}); }
+    void say(const std::string& text, double now) { add({text, false, now + 6}); }
+    void fail(const std::string& text) { add({text, true, 0}); }
     void drop_old(double now);
     void dismiss(std::size_t index) { list_.erase(list_.begin() + std::ptrdiff_t(index)); }
     /// When the next one goes; none: no need to wake.
@@ -93,6 +93,8 @@ class Notices
     const std::deque<Notice>& list() const { return list_; }
 
   private:
+    void add(Notice notice); // once only, as the latest
+
     std::deque<Notice> list_;
 };
 

@@ -106,7 +106,9 @@ void draw_timeline(DemoState& state)
     }
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(day_text(state).c_str());
+    const std::string day = day_text(state);
+    const bool fits = ImGui::CalcTextSize(day.c_str()).x <= ImGui::GetContentRegionAvail().x;
+    ImGui::TextUnformatted(fits ? day.c_str() : day.substr(0, day.find("   ")).c_str());
 
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = std::max(ImGui::GetContentRegionAvail().x, 1.0f), height = 22 * state.scale;

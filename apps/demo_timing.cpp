@@ -76,7 +76,8 @@ void draw_timing(DemoState& state)
     if (ImGui::BeginTable("passes", 3)) {
         ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch);
         ImGui::TableSetupColumn("state", ImGuiTableColumnFlags_WidthFixed);
-        ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed);
+        ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed,
+                                ImGui::CalcTextSize("0000.00 ms").x); // not as the first row happens to be
         for (std::size_t i = 0; i < state.passes.size(); ++i)
             draw_pass(state, i);
         ImGui::EndTable();

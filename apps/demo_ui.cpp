@@ -7,8 +7,7 @@ namespace app {
 namespace {
 
 constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
-                                          ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
-                                          ImGuiWindowFlags_NoBringToFrontOnFocus;
+                                          ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar;
 
 void file_menu(DemoState& state)
 {
@@ -103,6 +102,7 @@ void draw_notices(DemoState& state)
     const float gap = 12 * state.scale;
     ImGui::SetNextWindowPos({view.left + gap, view.top + view.height - gap}, 0, {0, 1});
     ImGui::SetNextWindowBgAlpha(.88f);
+    // Without NoBringToFrontOnFocus, which would put it behind the view.
     ImGui::Begin("notices", nullptr,
                  fixed_window | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
     for (std::size_t i = 0; i < state.notices.list().size(); ++i)
@@ -115,7 +115,7 @@ void draw_fixed(const char* name, const Rectangle& place, void (*contents)(DemoS
 {
     ImGui::SetNextWindowPos({place.left, place.top});
     ImGui::SetNextWindowSize({place.width, place.height});
-    if (ImGui::Begin(name, nullptr, fixed_window | flags))
+    if (ImGui::Begin(name, nullptr, fixed_window | ImGuiWindowFlags_NoBringToFrontOnFocus | flags))
         contents(state);
     ImGui::End();
 }

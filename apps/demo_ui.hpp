@@ -114,6 +114,7 @@ struct DemoState
         std::filesystem::path photo;
         const engine::Texture* picture = nullptr;
         std::array<int, 2> pixels{};
+        Rectangle shown;                     // where the photograph is
         std::optional<cv::Rect2d> rectangle; // pixels of the photograph
         std::optional<std::size_t> wound;    // none: a new one
     } entries;
@@ -143,8 +144,8 @@ void draw_timing(DemoState& state);
 void draw_view(DemoState& state); // what lies over the picture, and the mouse in it
 void draw_dialogs(DemoState& state);
 
-/// Keys that are pressed anywhere but in a text field.
-void press(DemoState& state, const engine::KeyPress& key);
+/// `typing`: a text field has the keys, but for those with Ctrl and Esc in a dialog.
+void press(DemoState& state, const engine::KeyPress& key, bool typing);
 void draw_help(DemoState& state);
 
 void open_dialog(DemoState& state, Dialog dialog);

@@ -263,7 +263,7 @@ void draw_view(DemoState& state)
                                ImGuiButtonFlags_MouseButtonMiddle);
     use_mouse(state);
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    if (!state.loading) {
+    if (!state.loading && state.dialog != Dialog::Recording) { // which has no picture to lie over
         draw_sun(state, list);
         draw_selection(state, list);
         draw_divider(state, list);

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <unistd.h>
 
+#include "apps/bake.hpp"
+#include "apps/output.hpp"
 #include "engine/image_io.hpp"
 #include "wound/healing.hpp"
 #include "wound/input_error.hpp"
@@ -28,7 +31,9 @@ engine::DeviceOptions window_device(const DemoOptions& options, const engine::Wi
 DemoWindow::DemoWindow(const DemoOptions& options)
     : options_(options), events_(options.events), window_("Cicatrix", first_size)
 {
-    state_.scene = chosen_scene(options_);
+    events_.tell("window"); // it is there, and empty
+    window_.on_display_lost = [this] { return rescue(); };
+    on_disk_ = state_.scene = chosen_scene(options_);
     state_.scene_file = options_.scene;
     loading_ = std::async(std::launch::async, [scene = state_.scene] {
         Stage::Props props = Stage::prepare(scene);
@@ -71,9 +76,9 @@ std::optional<double> DemoWindow::patience() const
         return std::nullopt;
     if (!on_screen_)
         return .05; // the window gave no image
-    if (settle_ > 0 || recording_ || window_.has_key_changes())
+    if (settle_ > 0 || recording_ || window_.has_input())
         return 0;
-    if (state_.playback.playing)
+    if (state_.playback.playing || now < fading_until_)
         return std::max(0.0, frame_s - (now - last_step_));
     std::optional<double> wait = quality_.due_in(now);
     const auto at_most = [&](double seconds) {
@@ -93,8 +98,7 @@ void DemoWindow::step()
     if (window_.minimised())
         return;
     for (const engine::KeyPress& key : window_.take_keys())
-        if (!ImGui::GetIO().WantTextInput || key.control)
-            press(state_, key);
+        press(state_, key, ImGui::GetIO().WantTextInput);
     for (const std::filesystem::path& file : window_.take_dropped())
         open(file);
     state_.playback.advance(std::min(now - passed, .25));
@@ -105,16 +109,22 @@ void DemoWindow::step()
         record_picture(); // before the interface refers to the picture of it that is replaced
     ui_->begin(swapchain_->ui());
     draw_demo(state_);
+    if (std::exchange(shown_dialog_, state_.dialog) != state_.dialog)
+        fading_until_ = now + .25;
     const ImDrawData* drawn = ui_->end();
     if (!recording_)
         apply_edits();
     if (state_.moving || state_.playback.playing || ImGui::GetIO().MouseWheel != 0)
         quality_.moving(now);
+    if (std::exchange(shown_notices_, state_.notices.list().size()) != state_.notices.list().size())
+        settle_ = 2; // their window takes their size a frame later
     const bool rendered = render();
     if (!window_.take_damaged() && !rendered && !ui_->changed() && on_screen_)
         return; // what is on the screen is what would be drawn
     on_screen_ = swapchain_->show(frame(drawn));
     frames_ += on_screen_;
+    if (on_screen_ && pictures_ > 0 && !std::exchange(told_picture_, true))
+        events_.tell("picture"); // the first
     told_idle_ = false;
 }
 
@@ -186,8 +196,7 @@ DemoWindow::Drawn DemoWindow::draw_picture(double scale)
     engine::Graph graph;
     const double day = state_.playback.day;
     const engine::ImageId picture =
-        compared_ ? declare_split(graph, *stage_, day, *compared_, state_.compare == Compare::Day0 ? 0 : day,
-                                  size, state_.divider)
+        compared_ ? declare_split(graph, *stage_, day, *compared_, compared_day(day), size, state_.divider)
                   : stage_->declare(graph, day, size).picture;
     graph.present(picture);
     if (picture_ != VK_NULL_HANDLE && renderer_->executor.up_to_date(graph))
@@ -251,7 +260,25 @@ void DemoWindow::tell_idle()
                           {"wounds", wounds},
                           {"selected", state_.selected ? nlohmann::json(*state_.selected) : nullptr},
                           {"dialog", int(state_.dialog)},
+                          {"photo", box(state_.entries.shown)},
+                          {"divider", state_.divider},
                           {"notices", notices}});
+}
+
+std::string DemoWindow::rescue() const
+{
+    const std::string anew = "open the window again on a running display";
+    if (!stage_ || state_.scene == on_disk_)
+        return anew;
+    const std::filesystem::path file = cache_folder() / fmt::format("rescued-{}.json", ::getpid());
+    try {
+        make_folder(file.parent_path());
+        app::save_scene(file, state_.scene);
+        return fmt::format("the scene with its edits is in {}; {} with it: cicatrix demo {}", file.string(),
+                           anew, file.string());
+    } catch (const std::exception& error) {
+        return fmt::format("the edits are lost, for {}; {}", error.what(), anew);
+    }
 }
 
 void DemoWindow::save_screenshot()

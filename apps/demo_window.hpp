@@ -55,11 +55,13 @@ class DemoWindow
     std::array<std::uint32_t, 2> view_pixels() const;
     void tell_facts(); // to the interface
     void save_screenshot();
+    std::string rescue() const; // the scene, when the display is lost; returns how to go on
 
     // What is edited; each reports what goes wrong in the window.
     void apply_edits();
     void show_scene();
     void match_comparison();
+    double compared_day(double day) const { return state_.compare == Compare::Day0 ? 0 : day; }
     Scene compared_scene() const;
     void grant_wishes();
     void grant_edits();
@@ -76,7 +78,8 @@ class DemoWindow
     void save_scene(std::filesystem::path file);
     void save_picture(std::filesystem::path file);
     void start_film(std::filesystem::path file);
-    void record_picture(); // of the film
+    void record_picture();                                        // of the film
+    cv::Mat3b picture_of(double day, const DrawOptions& options); // as the window shows it, split or not
     void show_in_dialog(const cv::Mat3b& picture);
     template <typename Work>
     void attempt(Work work); // an error in it becomes a notice
@@ -101,12 +104,15 @@ class DemoWindow
     std::unique_ptr<Stage> stage_;
     std::optional<Stage> compared_; // right of the divider
     History history_{Scene{}};
+    Scene on_disk_; // as it was read or saved last
     Quality quality_;
     VkImage picture_ = VK_NULL_HANDLE;
     std::array<std::uint32_t, 2> picture_size_{};
     int settle_ = 2; // steps that ImGui still needs to come to rest after an event
-    bool on_screen_ = false, told_idle_ = false;
-    double last_step_ = 0;
+    bool on_screen_ = false, told_idle_ = false, told_picture_ = false;
+    double last_step_ = 0, fading_until_ = 0; // what lies behind a dialog grows dark
+    Dialog shown_dialog_ = Dialog::None;
+    std::size_t shown_notices_ = 0;
     std::uint64_t frames_ = 0, pictures_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <imgui.h>
@@ -59,8 +60,8 @@ void set_look(ImGuiStyle& style)
     set(ImGuiCol_HeaderHovered, .27f, .275f, .3f);
     set(ImGuiCol_HeaderActive, .33f, .335f, .36f);
     set(ImGuiCol_CheckMark, .93f, .55f, .45f);
-    set(ImGuiCol_SliderGrab, .8f, .45f, .37f);
-    set(ImGuiCol_SliderGrabActive, .93f, .55f, .45f);
+    set(ImGuiCol_SliderGrab, .6f, .32f, .26f); // its value is written over it
+    set(ImGuiCol_SliderGrabActive, .72f, .39f, .32f);
     set(ImGuiCol_Separator, .25f, .255f, .27f);
     set(ImGuiCol_TitleBgActive, .2f, .205f, .22f);
     set(ImGuiCol_PlotHistogram, .8f, .45f, .37f);
@@ -154,10 +155,23 @@ void Ui::tell_keys()
     io.KeyAlt = either(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
 }
 
+void Ui::tell_mouse()
+{
+    ImGuiIO& io = ImGui::GetIO();
+    if (const std::optional<ButtonChange> change = window.take_button_change();
+        change && std::size_t(change->button) < buttons.size())
+    {
+        buttons[std::size_t(change->button)] = change->down;
+        io.MousePos = {change->at[0], change->at[1]};
+    }
+    std::ranges::copy(buttons, io.MouseDown);
+}
+
 void Ui::begin(UiRenderer& renderer)
 {
     tell_keys();
     ImGui_ImplGlfw_NewFrame();
+    tell_mouse();
     if (const float scale = wanted_scale(); scale != current_scale)
         set_scale(scale);
     if (fonts_changed)

@@ -1,6 +1,7 @@
 // Dear ImGui in a window: its context, input, fonts and look. Between begin() and end() ImGui's functions may
 // be called; what end() returns is drawn by Swapchain::show.
 #pragma once
+#include <array>
 #include <cstdint>
 
 #include "engine/ui_renderer.hpp"
@@ -31,12 +32,14 @@ class Ui
 
   private:
     void tell_keys();
+    void tell_mouse();
     float wanted_scale() const;
     void set_scale(float scale);
 
     Window& window;
     double forced_scale;
     float current_scale = 0;
+    std::array<bool, 3> buttons{}; // of the mouse, as ImGui has been told
     bool fonts_changed = true;
     std::uint64_t hash = 0, last_hash = 0;
 };

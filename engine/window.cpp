@@ -46,10 +46,10 @@ Window* the_window = nullptr; // for Xlib's handler, which is given no pointer o
 /// Xlib ends the process when this returns; its own last words are left out by not returning.
 int display_lost(void*)
 {
+    std::string cure = "open the window again on a running display";
     if (the_window && the_window->on_display_lost)
-        the_window->on_display_lost();
-    std::fputs("cicatrix: display: the connection was lost; open the window again on a running display\n",
-               stderr);
+        cure = the_window->on_display_lost();
+    std::fputs(fmt::format("cicatrix: display: the connection was lost; {}\n", cure).c_str(), stderr);
     std::fflush(nullptr);
     ::_exit(1);
 }
@@ -100,6 +100,13 @@ void Window::install_callbacks()
     glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { self(w).damaged = true; });
     glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { self(w).damaged = true; });
     listen_to_keys();
+    // What GLFW tells when asked is where the pointer is now, not where it was at an event.
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+        self(w).pointer = {float(x), float(y)};
+    });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+        self(w).button_changes.push_back({button, action == GLFW_PRESS, self(w).pointer});
+    });
     glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
         for (int i = 0; i < count; ++i)
             self(w).dropped.emplace_back(paths[i]);
@@ -212,6 +219,15 @@ std::vector<KeyChange> Window::take_key_changes()
     }
     key_changes.erase(key_changes.begin(), key_changes.begin() + std::ptrdiff_t(taken.size()));
     return taken;
+}
+
+std::optional<ButtonChange> Window::take_button_change()
+{
+    if (button_changes.empty())
+        return std::nullopt;
+    const ButtonChange change = button_changes.front();
+    button_changes.pop_front();
+    return change;
 }
 
 std::vector<KeyPress> Window::take_keys()

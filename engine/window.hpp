@@ -6,6 +6,7 @@
 // on.
 #pragma once
 #include <array>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -28,6 +29,14 @@ struct KeyChange
 {
     int key = 0; // GLFW_KEY_...
     bool down = false;
+};
+
+/// A mouse button went down or up.
+struct ButtonChange
+{
+    int button = 0; // GLFW_MOUSE_BUTTON_...
+    bool down = false;
+    std::array<float, 2> at{}; // where the pointer was, screen coordinates in the window
 };
 
 class Window
@@ -70,14 +79,19 @@ class Window
     /// The changes since the last call, up to the first key that would go up in the frame in which it went
     /// down; what is left is for the next frame.
     std::vector<KeyChange> take_key_changes();
-    bool has_key_changes() const { return !key_changes.empty(); }
+    /// The next press or release of a mouse button, to be taken one a frame: on a slow device the pointer is
+    /// elsewhere by the time of the frame that sees it.
+    std::optional<ButtonChange> take_button_change();
+    /// Whether there is something left to take.
+    bool has_input() const { return !key_changes.empty() || !button_changes.empty(); }
     /// Receives keys again after somebody else has asked GLFW for them.
     void listen_to_keys();
     /// Files dropped on the window since the last call.
     std::vector<std::filesystem::path> take_dropped();
 
-    /// Called when the display is lost, just before the process ends.
-    std::function<void()> on_display_lost;
+    /// Called when the display is lost, just before the process ends: saves what it can and returns how to go
+    /// on, for the user. Must not throw.
+    std::function<std::string()> on_display_lost;
 
   private:
     void install_callbacks();
@@ -86,6 +100,8 @@ class Window
     bool damaged = true;
     std::vector<KeyPress> keys;
     std::vector<KeyChange> key_changes;
+    std::deque<ButtonChange> button_changes;
+    std::array<float, 2> pointer{}; // after the events so far
     std::vector<std::filesystem::path> dropped;
 };
 

@@ -11,6 +11,7 @@
 #include "tests/desktop.hpp"
 #include "tests/process.hpp"
 #include "tests/small_head.hpp"
+#include "tests/wound_photographs.hpp"
 
 namespace {
 
@@ -61,7 +62,40 @@ class DemoWindowTest : public testing::Test
                 {"mousemove", whole(x + (to_x - x) * i / 4), whole(y + (to_y - y) * i / 4), "sleep", "0.1"});
         desktop_.user({"mouseup", button});
     }
+    /// Faster than any frame.
+    void fling(double x, double y, double to_x, double to_y) const
+    {
+        desktop_.user({"mousemove", whole(x), whole(y), "mousedown", "1", "mousemove", whole(to_x),
+                       whole(to_y), "mouseup", "1", "mousemove", whole(to_x + 90), whole(to_y)});
+    }
     void key(const char* name) const { desktop_.user({"key", name}); }
+    void type(const std::string& text) const
+    {
+        desktop_.user({"key", "ctrl+a"});
+        desktop_.user({"type", "--delay", "30", text});
+    }
+    /// Shared by all that ask for a file's name; 0 is no dialog.
+    json fill_in(Demo& demo, const char* shortcut, const std::string& path) const
+    {
+        key(shortcut);
+        const json opened = demo.idle([](const json& now) { return now["dialog"] != 0; }, "a dialog");
+        type(path);
+        return opened;
+    }
+    /// Whether the view shows what capture draws of `file`, all but the sign of the light and an outline,
+    /// which are drawn over the picture.
+    void expect_as_captured(const cv::Mat3b& view, const std::string& file) const
+    {
+        const std::string size = std::to_string(view.cols) + "x" + std::to_string(view.rows);
+        const Outcome captured = run_program(
+            {"capture", file, "--days", "0", "--size", size, "--no-cost", "--out", folder_ / "captured"});
+        ASSERT_EQ(captured.code, 0) << captured.err;
+        cv::Mat difference;
+        cv::absdiff(view, engine::read_rgb(folder_ / "captured" / "day_000.png"), difference);
+        cv::Mat1b near;
+        cv::inRange(difference, cv::Scalar(0, 0, 0), cv::Scalar(2, 2, 2), near);
+        EXPECT_GT(cv::countNonZero(near), .995 * view.size().area());
+    }
     void quit(Demo& demo) const
     {
         key("ctrl+q");
@@ -115,16 +149,7 @@ TEST_F(DemoWindowTest, ShowsTheFaceAsCaptureDrawsIt)
     EXPECT_GT(red_pixels(view), 100);
     EXPECT_GT(red_pixels(timeline), timeline.size().area() / 20) << "the open wound's days";
 
-    const std::string size = std::to_string(view.cols) + "x" + std::to_string(view.rows);
-    const Outcome captured =
-        run_program({"capture", file, "--days", "0", "--size", size, "--no-cost", "--out", folder_.path()});
-    ASSERT_EQ(captured.code, 0) << captured.err;
-    cv::Mat difference;
-    cv::absdiff(view, engine::read_rgb(folder_ / "day_000.png"), difference);
-    cv::Mat1b far;
-    cv::inRange(difference, cv::Scalar(0, 0, 0), cv::Scalar(2, 2, 2), far);
-    // All but the sign of the light, which is drawn over the picture.
-    EXPECT_GT(cv::countNonZero(far), .995 * view.size().area());
+    expect_as_captured(view, file);
     quit(demo);
 }
 
@@ -196,6 +221,11 @@ TEST_F(DemoWindowTest, TurnsTheHeadAndFollowsItsWindowsSize)
         [&](const json& now) { return std::abs(now["wounds"][0]["at"][0].get<double>() - wound_x) > 8; },
         "the head turned");
     EXPECT_GT(cv::norm(before, screen(idle, "view"), cv::NORM_L1) / double(before.total()), 3);
+    // Small while it turned, whole again at rest.
+    fill_in(demo, "ctrl+s", folder_ / "turned.json");
+    key("Return");
+    idle = demo.idle([](const json& now) { return now["dialog"] == 0; }, "the scene saved");
+    expect_as_captured(screen(idle, "view"), folder_ / "turned.json");
 
     desktop_.user({"search", "--name", "Cicatrix", "windowsize", "900", "640"});
     idle = demo.idle([](const json& now) { return now["window"] == json({900, 640}); }, "the smaller window");
@@ -204,6 +234,12 @@ TEST_F(DemoWindowTest, TurnsTheHeadAndFollowsItsWindowsSize)
     idle = demo.idle([](const json& now) { return now["window"] == json({1500, 960}); }, "the larger window");
     EXPECT_GT(skin_pixels(screen(idle, "view")), box(idle["view"]).area() / 20);
     EXPECT_GT(red_pixels(screen(idle, "timeline")), 100);
+
+    desktop_.user({"search", "--name", "Cicatrix", "windowunmap", "--sync"});
+    EXPECT_EQ(skin_pixels(screen(idle, "view")), 0) << "the window is gone";
+    desktop_.user({"search", "--name", "Cicatrix", "windowmap", "--sync"});
+    idle = demo.idle(at_least("frames", idle["frames"].get<int>() + 1), "the window back");
+    EXPECT_GT(skin_pixels(screen(idle, "view")), box(idle["view"]).area() / 20);
     quit(demo);
 }
 
@@ -212,10 +248,7 @@ TEST_F(DemoWindowTest, SavesWhatItShowsAndSurvivesBadFiles)
     Demo demo(desktop_, {scene()});
     json idle = demo.idle();
     const auto answer = [&](const char* shortcut, const std::string& path) {
-        key(shortcut);
-        demo.idle([](const json& now) { return now["dialog"] != 0; }, "a dialog");
-        desktop_.user({"key", "ctrl+a"});
-        desktop_.user({"type", "--delay", "30", path});
+        fill_in(demo, shortcut, path);
         desktop_.user({"key", "Return"});
         return demo.idle([](const json& now) { return now["dialog"] == 0 && !now["notices"].empty(); },
                          "a notice");
@@ -233,6 +266,73 @@ TEST_F(DemoWindowTest, SavesWhatItShowsAndSurvivesBadFiles)
     answer("ctrl+p", picture);
     EXPECT_EQ(engine::read_rgb(picture).size(), cv::Size(1280, 720));
     EXPECT_GT(red_pixels(engine::read_rgb(picture)), 100);
+    quit(demo);
+}
+
+TEST_F(DemoWindowTest, FollowsAPointerFasterThanItsFrames)
+{
+    Demo demo(desktop_, {scene()});
+    json idle = demo.idle();
+    const double x = idle["wounds"][0]["at"][0], y = idle["wounds"][0]["at"][1];
+    fling(x, y, x, y - 50);
+    idle =
+        demo.idle([&](const json& now) { return std::abs(now["wounds"][0]["at"][1].get<double>() - y) > 40; },
+                  "the wound moved");
+    EXPECT_NEAR(idle["wounds"][0]["at"][0], x, 8);
+    EXPECT_NEAR(idle["wounds"][0]["at"][1], y - 50, 8);
+    key("c"); // the divider stands in the middle, over the head
+    idle = demo.idle(at_least("pictures", idle["pictures"].get<int>() + 1), "the split view");
+    const cv::Rect view = box(idle["view"]);
+    fling(view.x + view.width / 2, view.y + .9 * view.height, view.x + .25 * view.width,
+          view.y + .9 * view.height);
+    idle = demo.idle([](const json& now) { return now["divider"] < .3; }, "the divider moved");
+    EXPECT_NEAR(idle["divider"], .25, .01);
+    EXPECT_NEAR(idle["wounds"][0]["at"][1], y - 50, 8) << "the head did not turn";
+    quit(demo);
+}
+
+TEST_F(DemoWindowTest, TakesTheWoundInAnAreaOfAPhoto)
+{
+    const std::filesystem::path photo = folder_ / "photo.png";
+    engine::write_png(photo,
+                      testing_wounds::photograph({240, 160}, {70, 80}, testing_wounds::ellipse(30, 22)).srgb);
+    Demo demo(desktop_, {scene()});
+    demo.idle();
+    fill_in(demo, "ctrl+o", photo);
+    key("Return");
+    json idle = demo.idle([](const json& now) { return now["dialog"] == 6; }, "the photo");
+    const cv::Rect shown = box(idle["photo"]);
+    const auto at = [&](double share) { return shown.y + share * shown.height; };
+    drag(shown.x + .05 * shown.width, at(.1), shown.x + .55 * shown.width, at(.9));
+    key("Return");
+    demo.idle([](const json& now) { return now["dialog"] == 0; }, "the wound from the photo");
+    fill_in(demo, "ctrl+s", folder_ / "scene_of_photo.json");
+    key("Return");
+    demo.idle([](const json& now) { return now["dialog"] == 0; }, "the scene saved");
+    const app::Scene read = app::read_scene(folder_ / "scene_of_photo.json");
+    ASSERT_THAT(read.wounds, SizeIs(1));
+    EXPECT_EQ(read.wounds[0].photo.filename(), "photo.png");
+    ASSERT_TRUE(read.wounds[0].segmentation.rect);
+    EXPECT_NEAR(read.wounds[0].segmentation.rect->width, 120, 3);
+    EXPECT_NEAR(read.wounds[0].segmentation.rect->height, 128, 3);
+    quit(demo);
+}
+
+TEST_F(DemoWindowTest, RecordsAFilmToItsEnd)
+{
+    Demo demo(desktop_, {scene()});
+    demo.idle();
+    const std::filesystem::path film = folder_ / "film.mp4";
+    fill_in(demo, "ctrl+r", film);
+    for (const char* number : {"96", "64", "0.4", "10"}) { // width, height, seconds, pictures a second
+        key("Tab");
+        type(number);
+    }
+    for (int i = 0; i < 4; ++i)
+        key("shift+Tab"); // back to the name, where Enter confirms
+    key("Return");
+    demo.idle([](const json& now) { return now["dialog"] == 0; }, "the end of the film");
+    EXPECT_GT(std::filesystem::file_size(film), 500);
     quit(demo);
 }
 
@@ -261,11 +361,20 @@ TEST_F(DemoWindowTest, SleepsWhileNothingChanges)
 TEST_F(DemoWindowTest, EndsWithOneLineWhenTheDisplayGoesAway)
 {
     Demo demo(desktop_, {scene()});
-    demo.idle();
+    const cv::Rect view = box(demo.idle()["view"]);
+    click(view.x + .5 * view.width, view.y + .3 * view.height);
+    demo.idle(wounds(2), "an edit");
     desktop_.shut_down();
     EXPECT_EQ(demo.process().wait(), 1);
-    EXPECT_THAT(demo.err(), HasSubstr("cicatrix: display: the connection was lost"));
-    EXPECT_EQ(std::ranges::count(demo.err(), '\n'), 1) << demo.err();
+    const std::string err = demo.err();
+    EXPECT_THAT(err,
+                HasSubstr("cicatrix: display: the connection was lost; the scene with its edits is in "));
+    EXPECT_EQ(std::ranges::count(err, '\n'), 1) << err;
+    const std::size_t at = err.find(" is in ") + 7;
+    const std::filesystem::path rescued = err.substr(at, err.find("; ", at) - at);
+    ASSERT_TRUE(std::filesystem::exists(rescued)) << rescued;
+    EXPECT_THAT(app::read_scene(rescued).wounds, SizeIs(2));
+    std::filesystem::remove(rescued);
 }
 
 TEST(DemoWithoutDisplay, SaysSo)

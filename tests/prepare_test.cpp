@@ -146,6 +146,29 @@ TEST(Prepare, AOnePixelWoundAndOneThatNearlyFillsThePhotographWork)
     EXPECT_TRUE(cv::checkRange(filling.patch.color) && cv::checkRange(filling.patch.depth_mm));
 }
 
+// Half of the wound is in the picture: the picture's edge is its border, and beyond it lies skin, not wound.
+TEST(Prepare, AWoundCutByThePhotographsEdgeEndsThereInSkin)
+{
+    const auto photo = photograph({200, 160}, {0, 80}, testing_wounds::ellipse(50, 40));
+    ASSERT_GT(photo.mask(80, 0), 0);
+    const auto wound = wound::prepare(photo, small_patch());
+    EXPECT_NEAR(wound.area * wound.photo_side * wound.photo_side / 4, cv::countNonZero(photo.mask),
+                .02 * cv::countNonZero(photo.mask));
+    EXPECT_NEAR(wound.photo_center.x, 4 * 50 / (3 * CV_PI), 1.5); // of half an ellipse
+    const auto texel = [&](double x) {
+        return cv::Point(int((x - wound.photo_center.x) / wound.photo_side * 256 + 128), 128);
+    };
+    EXPECT_GT(wound.patch.opacity(texel(3)), .9F);
+    EXPECT_LT(wound.patch.opacity(texel(-6)), .1F);
+    const cv::Vec3f beyond = wound.patch.color(texel(-20)), skin = wound.patch.color(texel(95)),
+                    bed = wound.patch.color(texel(20));
+    EXPECT_LT(cv::norm(beyond - skin), .25 * cv::norm(bed - skin));
+    for (double r : {1.4, .6, .2, .05, .01}) {
+        const wound::Warp warp = wound::make_warp(wound.flow, r);
+        EXPECT_EQ(wound::check_folds(warp, 256).folded_texels, 0) << r;
+    }
+}
+
 TEST(Prepare, WarpedMaskOfARealPipelineHasTheRatiosArea)
 {
     const auto wound = wound::prepare(photograph({260, 220}, {120, 110}, bean), small_patch());

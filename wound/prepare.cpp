@@ -19,17 +19,17 @@ float smoothstep(float low, float high, float x)
     return t * t * (3 - 2 * t);
 }
 
-/// Fills what is not part of the picture with the mean of nearby picture, so that no black leaks into blurred
-/// or pulled skin.
-void fill_outside(cv::Mat3f& color, const cv::Mat1f& picture)
+/// Fills what is not part of the picture with the mean of nearby skin, so that no black, nor the red of a
+/// wound that the picture's edge cuts, leaks into blurred or pulled skin.
+void fill_outside(cv::Mat3f& color, const cv::Mat1f& picture, const cv::Mat1f& skin)
 {
     cv::Mat3f weight, sum;
     cv::Mat1f mass;
-    cv::merge(std::vector<cv::Mat>{picture, picture, picture}, weight);
+    cv::merge(std::vector<cv::Mat>{skin, skin, skin}, weight);
     const double sigma = std::max(color.cols, color.rows) / 12.;
     cv::GaussianBlur(color.mul(weight), sum, {}, sigma);
-    cv::GaussianBlur(picture, mass, {}, sigma);
-    const cv::Scalar whole = cv::mean(color, picture > .5F);
+    cv::GaussianBlur(skin, mass, {}, sigma);
+    const cv::Scalar whole = cv::mean(color, skin > .5F);
     const cv::Vec3f mean(static_cast<float>(whole[0]), static_cast<float>(whole[1]),
                          static_cast<float>(whole[2]));
     for (int j = 0; j < color.rows; ++j)
@@ -54,11 +54,20 @@ cv::Mat1f first_opacity(const cv::Mat1f& mask, const cv::Mat1f& picture)
                         y = (static_cast<float>(j) + .5F) * unit - 1;
             const float skin = 1 - smoothstep(.02F, .32F, outward(j, i) * unit);
             const float frame = 1 - smoothstep(.7F, .92F, std::max(std::abs(x), std::abs(y)));
-            opacity(j, i) = skin * frame * smoothstep(0, .1F, to_gap(j, i) * unit);
+            // Skin fades towards the picture's edge; a wound cut by it ends there, as at any other border.
+            opacity(j, i) = skin * frame * std::max(smoothstep(0, .1F, to_gap(j, i) * unit), mask(j, i));
         }
     cv::GaussianBlur(opacity, opacity, {},
                      mask.cols / 100.); // distances crease along the border's concavities
     return opacity;
+}
+
+/// 0 in a wound, 1 beyond what is red beside it.
+cv::Mat1f away_from(const cv::Mat1f& mask)
+{
+    cv::Mat1f distance;
+    cv::distanceTransform(mask <= .02F, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+    return cv::min(distance / (.02 * mask.cols), 1);
 }
 
 /// Another wound of the photograph is no part of this one's picture: nearby skin stands in its place, and the
@@ -70,8 +79,8 @@ void leave_out(Patch& patch, const cv::Mat1f& others)
     cv::distanceTransform(others <= .5F, to_others, cv::DIST_L2, cv::DIST_MASK_PRECISE);
     const cv::Mat1f share = to_others / (to_own + to_others + 1e-3F);
     patch.opacity = patch.opacity.mul(share);
-    const float margin = static_cast<float>(others.cols) * .02F; // what is red beside it
-    fill_outside(patch.color, cv::min(to_others / margin, 1.F));
+    const cv::Mat1f own = away_from(others);
+    fill_outside(patch.color, own, own);
 }
 
 /// The photograph's square of `side` pixels around `center`, resampled to size x size.
@@ -178,8 +187,9 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
     const cv::Mat1f picture = resample(whole, cv::BORDER_CONSTANT);
     Patch patch;
     patch.color = resample(linear_from_srgb(srgb), cv::BORDER_REPLICATE);
-    fill_outside(patch.color, picture);
     patch.mask = resample_mask(working_mask, resample);
+    const cv::Mat1f skin = picture.mul(away_from(patch.mask));
+    fill_outside(patch.color, picture, cv::countNonZero(skin > .5F) > 0 ? skin : picture);
     patch.opacity = first_opacity(patch.mask, picture);
     if (!photograph.other_wounds.empty()) {
         cv::Mat1b working = photograph.other_wounds;

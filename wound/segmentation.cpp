@@ -345,12 +345,7 @@ cv::Mat1b checked_mask(const cv::Mat1b& mask, cv::Size photograph, std::string_v
         throw cicatrix::InputError(where, "the mask is empty", "paint the wound white on black");
     if (area == static_cast<int>(binary.total()))
         throw cicatrix::InputError(where, "the mask is full", "paint only the wound white, on black");
-    const cv::Mat1b wound_only = components(binary, 1).front();
-    const cv::Rect bounds = cv::boundingRect(wound_only);
-    if (bounds.x == 0 || bounds.y == 0 || bounds.br().x == mask.cols || bounds.br().y == mask.rows)
-        throw cicatrix::InputError(where, "the wound touches the edge of the picture",
-                                   "crop the photograph with skin on every side of the wound");
-    return wound_only;
+    return components(binary, 1).front();
 }
 
 double intersection_over_union(const cv::Mat1b& a, const cv::Mat1b& b)

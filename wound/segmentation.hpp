@@ -32,9 +32,9 @@ cv::Mat1b picture_area(const cv::Mat3b& srgb);
 /// it.
 std::vector<cv::Mat1b> components(const cv::Mat1b& mask, std::size_t most);
 
-/// Checks a mask that the user gives: of the photograph's size, neither empty nor full, and off the edge of
-/// the picture (a wound cut off there has an unknown border). Returns its largest component with holes
-/// filled. Throws cicatrix::InputError.
+/// Checks a mask that the user gives: of the photograph's size, neither empty nor full. Returns its largest
+/// component with holes filled; where that touches the picture's edge, the edge is taken for its border.
+/// Throws cicatrix::InputError.
 cv::Mat1b checked_mask(const cv::Mat1b& mask, cv::Size photograph, std::string_view where);
 
 /// Area of the intersection / area of the union; 1 for two empty masks.

@@ -50,6 +50,20 @@ Polyline cut()
     });
 }
 
+/// A disk that the photograph's edge cuts in half.
+Polyline half_disk()
+{
+    constexpr int kPoints = 300;
+    Polyline curve;
+    for (int i = 0; i <= kPoints; ++i) {
+        const double angle = std::numbers::pi * (.5 - static_cast<double>(i) / kPoints);
+        curve.emplace_back(.45 * std::cos(angle) - .19, .45 * std::sin(angle));
+    }
+    for (int i = 1; i < kPoints; ++i)
+        curve.emplace_back(-.19, -.45 + .9 * i / kPoints);
+    return curve;
+}
+
 cv::Point2d centroid_of(const Polyline& curve)
 {
     cv::Point2d sum;
@@ -95,12 +109,17 @@ LadderRow measure(const LadderShape& shape, const ContractionFlow& flow, WarpRun
     auto start = std::chrono::steady_clock::now();
     const Warp warp = make_warp(flow, ratio, rung);
     row.make_ms = milliseconds(start);
-    start = std::chrono::steady_clock::now();
     cv::Mat2d map(kSamples, kSamples);
-    for (int j = 0; j < kSamples; ++j)
-        for (int i = 0; i < kSamples; ++i)
-            map(j, i) = warp.apply({(i + .5) * 2 / kSamples - 1, (j + .5) * 2 / kSamples - 1});
-    row.ms_per_megatexel = milliseconds(start) * 1e6 / (kSamples * kSamples);
+    double least_ms =
+        1e300; // a cheap map takes less than a turn of the machine's other work: the least of five
+    for (int repeat = 0; repeat < 5 && (repeat == 0 || least_ms < 20); ++repeat) {
+        start = std::chrono::steady_clock::now();
+        for (int j = 0; j < kSamples; ++j)
+            for (int i = 0; i < kSamples; ++i)
+                map(j, i) = warp.apply({(i + .5) * 2 / kSamples - 1, (j + .5) * 2 / kSamples - 1});
+        least_ms = std::min(least_ms, milliseconds(start));
+    }
+    row.ms_per_megatexel = least_ms * 1e6 / (kSamples * kSamples);
 
     // Two lattices: the whole patch, and the neighbourhood of today's wound, which may be a few texels wide.
     double reach = 0;
@@ -203,6 +222,7 @@ std::vector<LadderShape> ladder_shapes()
                                      {}},
                                     {"crescent", crescent(), {}},
                                     {"cut 20:1", cut(), {}},
+                                    {"at the photo's edge", half_disk(), {}},
                                     {"near the frame", polar([](double) { return .28; }, {.6, .1}), {}}};
     for (LadderShape& shape : shapes)
         shape.centroid = centroid_of(shape.border);

@@ -16,7 +16,8 @@ struct LadderShape
     cv::Point2d centroid;
 };
 
-/// Circle, star, ragged, crescent, a 20 : 1 cut, and a circle near the patch's frame.
+/// Circle, star, ragged, crescent, a 20 : 1 cut, a disk cut in half by the photograph's edge, and a circle
+/// near the patch's frame.
 std::vector<LadderShape> ladder_shapes();
 
 struct LadderRow
