@@ -242,6 +242,7 @@ TEST_F(Program, RefusesBrokenMasks)
     refused(with_png("other.png", disc(64, {32, 32}, 12)), {"other.png", "64x64", "128x128"});
     expect_refusal(on_the_head({"--mask", with_png("mask.png", disc(128, {64, 64}, 24))}),
                    {"--mask", "--wound"});
+    expect_refusal(run_program({"warps", file("empty.png"), "--out", file("out")}), {"empty.png", "empty"});
 }
 
 TEST_F(Program, RefusesBrokenScenes)

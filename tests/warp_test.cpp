@@ -1,8 +1,9 @@
 // The warp ladder: area, folds, fixed points, agreement between the rungs.
 #include "wound/warp.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <numbers>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
@@ -12,6 +13,7 @@
 
 namespace {
 
+using testing::HasSubstr;
 using wound::Polyline;
 using wound::Warp;
 using wound::WarpRung;
@@ -215,8 +217,8 @@ TEST(Warp, CoincidentAndCollinearControlPointsAreSolved)
 
 TEST(Warp, LadderMeasuresWhatItClaims)
 {
-    const auto rows = wound::measure_ladder({wound::ladder_shapes().front()});
-    ASSERT_EQ(rows.size(), 4 * std::size(wound::kLadderRatios));
+    const auto rows = wound::measure_ladder(wound::ladder_shapes().front());
+    ASSERT_EQ(rows.size(), std::size(wound::kLadderRungs) * std::size(wound::kLadderRatios));
     for (const wound::LadderRow& row : rows) {
         if (row.rung == WarpRung::composed) {
             EXPECT_EQ(row.error_texels, 0);
@@ -227,7 +229,63 @@ TEST(Warp, LadderMeasuresWhatItClaims)
             EXPECT_GT(row.folded_texels, 0);
         }
     }
-    EXPECT_NE(wound::ladder_markdown(rows).find("| composed | 0.05 | 0.000 |"), std::string::npos);
+    EXPECT_EQ(wound::cheapest_exact(rows), WarpRung::grid);
+}
+
+/// Rows whose numbers say where they belong.
+std::vector<wound::LadderRow> numbered_rows()
+{
+    std::vector<wound::LadderRow> rows;
+    for (const char* shape : {"circle", "a \"mask\", mine"})
+        for (const double ratio : wound::kLadderRatios)
+            for (const WarpRung rung : wound::kLadderRungs) {
+                wound::LadderRow row{shape, rung, ratio};
+                row.error_texels = rung == WarpRung::composed ? 0 : 10 * ratio + int(rung);
+                row.least_jacobian = ratio;
+                row.ms_per_megatexel = 10 * (1 + int(rung));
+                rows.push_back(row);
+            }
+    rows[2].folded_texels = 26214; // dense, at 1.2, of the circle
+    rows[2].least_jacobian = -2;
+    return rows;
+}
+
+TEST(Warp, LadderIsWrittenWhole)
+{
+    const std::vector<wound::LadderRow> rows = numbered_rows();
+    const std::string csv = wound::ladder_csv(rows), tables = wound::ladder_tables(rows);
+    EXPECT_EQ(std::ranges::count(csv, '\n'), std::ssize(rows) + 1);
+    EXPECT_THAT(csv, HasSubstr("\n\"circle\",dense,1.2,14,0,0,26214,-2,0,30\n"));
+    EXPECT_THAT(csv, HasSubstr("\n\"a \"\"mask\"\", mine\",grid,0.01,1.1,0,0,0,0.01,0,20\n"));
+    EXPECT_THAT(tables, HasSubstr("| grid | 0.4 | 5.000 | 5.000 |\n"));         // error
+    EXPECT_THAT(tables, HasSubstr("| dense | 1.2 | -2.000, 10 % | 1.200 |\n")); // Jacobian
+    EXPECT_THAT(tables, HasSubstr("| composed | 0.01 | 2.00 | 2.00 |\n"));      // cost
+    EXPECT_THAT(wound::ladder_summary(rows),
+                HasSubstr("| dense | 14.000 | 0.000 | 0.00 | 26214 | -2.000 | 0.0 .. 0.0 | 30 .. 30 |\n"));
+}
+
+TEST(Warp, CheapestExactRungNeitherErrsNorFolds)
+{
+    std::vector<wound::LadderRow> rows = numbered_rows();
+    EXPECT_EQ(wound::cheapest_exact(rows), WarpRung::composed);
+    for (wound::LadderRow& row : rows)
+        row.error_texels = wound::kErrorLimit;
+    EXPECT_EQ(wound::cheapest_exact(rows), WarpRung::radial);
+    rows[0].error_texels = .26; // one row of radial
+    rows[1].folded_texels = 1;  // one of grid, one of dense above
+    EXPECT_EQ(wound::cheapest_exact(rows), WarpRung::composed);
+    rows[3].folded_texels = 1;
+    EXPECT_EQ(wound::cheapest_exact(rows), std::nullopt);
+}
+
+TEST(Warp, PictureOfTheLadderShowsTheFold)
+{
+    const cv::Mat3b picture = wound::draw_ladder(numbered_rows());
+    EXPECT_EQ(picture.size(), cv::Size(1200, 240)); // two panels and the legend
+    cv::Mat1b red;
+    cv::inRange(picture, cv::Scalar(225, 40, 40), cv::Scalar(225, 40, 40), red);
+    EXPECT_GT(cv::countNonZero(red(cv::Rect(0, 0, 300, 240))), 40);
+    EXPECT_EQ(cv::countNonZero(red(cv::Rect(300, 0, 300, 240))), 0);
 }
 
 TEST(Warp, PackedLayoutHoldsEveryNumberInOrder)

@@ -1,5 +1,4 @@
-// A small chart drawn into a picture: axes with round ticks, lines, points, a legend. BGR, as OpenCV writes
-// it.
+// A small chart drawn into a picture (RGB): axes with round ticks, lines, points, a legend.
 #pragma once
 #include <opencv2/core.hpp>
 #include <string>

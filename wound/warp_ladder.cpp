@@ -1,9 +1,9 @@
 #include "wound/warp_ladder.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <cmath>
-#include <fmt/format.h>
+#include <ctime>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
@@ -12,7 +12,7 @@ namespace wound {
 namespace {
 
 constexpr int kTexels = 512;
-constexpr WarpRung kRungs[] = {WarpRung::radial, WarpRung::grid, WarpRung::dense, WarpRung::composed};
+constexpr int kSamples = 96; // a side, of the lattices on which maps are compared and timed
 
 template <typename Radius>
 Polyline polar(Radius radius, cv::Point2d center = {})
@@ -96,93 +96,83 @@ cv::Point2d today_of(const Warp& warp, cv::Point2d day0)
     return p;
 }
 
-double milliseconds(std::chrono::steady_clock::time_point since)
+/// CPU time, which other programs' work hardly changes.
+template <typename Work>
+double cpu_ms(Work work)
 {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - since).count();
+    const std::clock_t start = std::clock();
+    work();
+    return 1000. * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-LadderRow measure(const LadderShape& shape, const ContractionFlow& flow, WarpRung rung, double ratio)
+/// Day-0 points of a lattice of kSamples x kSamples over the square of half the side `reach` about `center`.
+cv::Mat2d lattice(const Warp& warp, cv::Point2d center, double reach)
 {
-    constexpr int kSamples = 96;
-    LadderRow row{shape.name, rung, ratio};
-    const Warp reference = make_warp(flow, ratio, WarpRung::composed);
-    auto start = std::chrono::steady_clock::now();
-    const Warp warp = make_warp(flow, ratio, rung);
-    row.make_ms = milliseconds(start);
     cv::Mat2d map(kSamples, kSamples);
-    double least_ms =
-        1e300; // a cheap map takes less than a turn of the machine's other work: the least of five
-    for (int repeat = 0; repeat < 5 && (repeat == 0 || least_ms < 20); ++repeat) {
-        start = std::chrono::steady_clock::now();
-        for (int j = 0; j < kSamples; ++j)
-            for (int i = 0; i < kSamples; ++i)
-                map(j, i) = warp.apply({(i + .5) * 2 / kSamples - 1, (j + .5) * 2 / kSamples - 1});
-        least_ms = std::min(least_ms, milliseconds(start));
-    }
-    row.ms_per_megatexel = least_ms * 1e6 / (kSamples * kSamples);
+    for (int j = 0; j < kSamples; ++j)
+        for (int i = 0; i < kSamples; ++i)
+            map(j, i) = warp.apply(
+                center + reach * cv::Point2d((i + .5) * 2 / kSamples - 1, (j + .5) * 2 / kSamples - 1));
+    return map;
+}
+
+/// Largest distance within the patch, texels. Both maps are lattices over the square about `center`.
+double largest_distance(const cv::Mat2d& a, const cv::Mat2d& b, cv::Point2d center, double reach)
+{
+    double largest = 0;
+    for (int j = 0; j < kSamples; ++j)
+        for (int i = 0; i < kSamples; ++i) {
+            const cv::Point2d p =
+                center + reach * cv::Point2d((i + .5) * 2 / kSamples - 1, (j + .5) * 2 / kSamples - 1);
+            if (std::max(std::abs(p.x), std::abs(p.y)) < 1)
+                largest = std::max(largest, cv::norm(a(j, i) - b(j, i)) * kTexels / 2);
+        }
+    return largest;
+}
+
+/// Every rung at one ratio, timed in turn, the least of kRounds; cheap maps are timed more often.
+std::vector<LadderRow> measure(const LadderShape& shape, const ContractionFlow& flow, double ratio)
+{
+    constexpr int kRounds = 5;
+    constexpr std::size_t kCount = std::size(kLadderRungs);
+    std::array<Warp, kCount> warps;
+    std::array<cv::Mat2d, kCount> maps;
+    std::vector<LadderRow> rows;
+    for (const WarpRung rung : kLadderRungs)
+        rows.push_back({shape.name, rung, ratio, 0, 0, 0, 0, 0, 1e300, 1e300});
+    for (int round = 0; round < kRounds; ++round)
+        for (std::size_t i = 0; i < kCount; ++i) {
+            LadderRow& row = rows[i];
+            row.make_ms =
+                std::min(row.make_ms, cpu_ms([&] { warps[i] = make_warp(flow, ratio, kLadderRungs[i]); }));
+            for (double spent_ms = 0; spent_ms < 10;) {
+                const double once_ms = cpu_ms([&] { maps[i] = lattice(warps[i], {}, 1); });
+                row.ms_per_megatexel = std::min(row.ms_per_megatexel, once_ms * 1e6 / (kSamples * kSamples));
+                spent_ms += once_ms;
+            }
+        }
 
     // Two lattices: the whole patch, and the neighbourhood of today's wound, which may be a few texels wide.
     double reach = 0;
     for (cv::Point2d p : shape.border)
         reach = std::max(reach, cv::norm(p - shape.centroid));
-    reach *= 2 * warp.scale;
-    for (int j = 0; j < kSamples; ++j)
-        for (int i = 0; i < kSamples; ++i) {
-            const cv::Point2d unit((i + .5) * 2 / kSamples - 1, (j + .5) * 2 / kSamples - 1);
-            const cv::Point2d near = shape.centroid + reach * unit;
-            row.error_texels = std::max(
-                row.error_texels, cv::norm(cv::Point2d(map(j, i)) - reference.apply(unit)) * kTexels / 2);
-            if (std::max(std::abs(near.x), std::abs(near.y)) < 1)
-                row.wound_error_texels = std::max(
-                    row.wound_error_texels, cv::norm(warp.apply(near) - reference.apply(near)) * kTexels / 2);
-        }
-    row.error_texels = std::max(row.error_texels, row.wound_error_texels);
-
-    row.area_error = signed_area(outline_today(warp, shape.border)) / (ratio * signed_area(shape.border)) - 1;
-    // The thin-plate rungs cost seconds per check at full size; a quarter of it finds the same folds.
-    const bool slow = rung == WarpRung::dense || rung == WarpRung::composed;
-    const FoldCheck check = check_folds(warp, slow ? kTexels / 4 : kTexels);
-    row.folded_texels = check.folded_texels * (slow ? 16 : 1);
-    row.least_jacobian = check.least_jacobian;
-    return row;
-}
-
-/// The worst of several rows.
-LadderRow worst(const std::vector<LadderRow>& rows)
-{
-    LadderRow all = rows.front();
-    for (const LadderRow& row : rows) {
-        all.error_texels = std::max(all.error_texels, row.error_texels);
-        all.wound_error_texels = std::max(all.wound_error_texels, row.wound_error_texels);
-        all.area_error = std::max(std::abs(all.area_error), std::abs(row.area_error));
-        all.folded_texels = std::max(all.folded_texels, row.folded_texels);
-        all.least_jacobian = std::min(all.least_jacobian, row.least_jacobian);
-        all.make_ms = std::max(all.make_ms, row.make_ms);
-        all.ms_per_megatexel = std::max(all.ms_per_megatexel, row.ms_per_megatexel);
+    reach *= 2 * std::sqrt(ratio);
+    static_assert(kLadderRungs[kCount - 1] == WarpRung::composed);
+    const cv::Mat2d reference = maps.back(), near = lattice(warps.back(), shape.centroid, reach);
+    for (std::size_t i = 0; i < kCount; ++i) {
+        LadderRow& row = rows[i];
+        row.near_error_texels =
+            largest_distance(lattice(warps[i], shape.centroid, reach), near, shape.centroid, reach);
+        row.error_texels = std::max(largest_distance(maps[i], reference, {}, 1), row.near_error_texels);
+        row.area_error =
+            signed_area(outline_today(warps[i], shape.border)) / (ratio * signed_area(shape.border)) - 1;
+        // The thin-plate rungs cost seconds per check at full size; a quarter of it finds the same folds.
+        const bool slow = row.rung == WarpRung::dense || row.rung == WarpRung::composed;
+        const FoldCheck check = check_folds(warps[i], slow ? kTexels / 4 : kTexels);
+        row.folded_texels = check.folded_texels * (slow ? 16 : 1);
+        row.least_jacobian = check.least_jacobian;
     }
-    return all;
-}
-
-template <typename Keep>
-std::string line(const std::vector<LadderRow>& rows, const std::string& first, Keep keep)
-{
-    std::vector<LadderRow> kept;
-    std::copy_if(rows.begin(), rows.end(), std::back_inserter(kept), keep);
-    if (kept.empty())
-        return "";
-    const LadderRow row = worst(kept);
-    return fmt::format("| {} | {} | {:.3f} | {:.3f} | {:.2f} | {} | {:.3f} | {:.0f} | {:.0f} |\n",
-                       name_of(row.rung), first, row.error_texels, row.wound_error_texels,
-                       100 * row.area_error, row.folded_texels, row.least_jacobian, row.make_ms,
-                       row.ms_per_megatexel);
-}
-
-std::string header(std::string_view second)
-{
-    return fmt::format("| rung | {} | error, texels | near the wound | area, % | folded texels | least "
-                       "Jacobian | make, ms | CPU ms/megatexel |\n"
-                       "|---|---|---|---|---|---|---|---|---|\n",
-                       second);
+    return rows;
 }
 
 } // namespace
@@ -229,40 +219,16 @@ std::vector<LadderShape> ladder_shapes()
     return shapes;
 }
 
-std::vector<LadderRow> measure_ladder(const std::vector<LadderShape>& shapes)
+std::vector<LadderRow> measure_ladder(const LadderShape& shape)
 {
+    const auto points =
+        control_points(shape.border, shape.centroid, spacing_from_curvature(shape.border, shape.centroid));
+    const ContractionFlow flow = prepare_flow(shape.border, points, shape.centroid);
     std::vector<LadderRow> rows;
-    for (const LadderShape& shape : shapes) {
-        const auto points = control_points(shape.border, shape.centroid,
-                                           spacing_from_curvature(shape.border, shape.centroid));
-        const ContractionFlow flow = prepare_flow(shape.border, points, shape.centroid);
-        for (WarpRung rung : kRungs)
-            for (double ratio : kLadderRatios)
-                rows.push_back(measure(shape, flow, rung, ratio));
-    }
+    for (double ratio : kLadderRatios)
+        for (const LadderRow& row : measure(shape, flow, ratio))
+            rows.push_back(row);
     return rows;
-}
-
-std::string ladder_markdown(const std::vector<LadderRow>& rows)
-{
-    std::string text = header("r");
-    for (WarpRung rung : kRungs)
-        for (double ratio : kLadderRatios)
-            text += line(rows, fmt::format("{}", ratio),
-                         [&](const LadderRow& row) { return row.rung == rung && row.ratio == ratio; });
-    text += '\n';
-    text += header("shape");
-    for (WarpRung rung : kRungs) {
-        std::vector<std::string> named;
-        for (const LadderRow& row : rows)
-            if (std::find(named.begin(), named.end(), row.shape) == named.end()) {
-                named.push_back(row.shape);
-                text += line(rows, row.shape, [&](const LadderRow& other) {
-                    return other.rung == rung && other.shape == row.shape;
-                });
-            }
-    }
-    return text;
 }
 
 } // namespace wound

@@ -1,6 +1,7 @@
 // Measures the ladder of warps (wound/warp.hpp): error against the composed map, area, folds and cost of each
-// rung, over shapes that try it. docs/warp.md is made from it.
+// rung at each ratio, over shapes that try it. docs/warp.md is made from it.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,22 +26,35 @@ struct LadderRow
     std::string shape;
     WarpRung rung = WarpRung::grid;
     double ratio = 1;
-    double error_texels = 0; // largest distance from the composed map's day-0 point, texels of 512 x 512
-    double wound_error_texels = 0; // the same inside today's wound and twice as far out
-    double area_error = 0;         // area of today's wound / (ratio x initial area) - 1
-    int folded_texels = 0;         // of 512 x 512
+    double error_texels = 0;      // largest distance from the composed map's day-0 point, texels of 512 x 512
+    double near_error_texels = 0; // the same within twice today's wound's reach from its centroid
+    double area_error = 0;        // area of today's wound / (ratio x initial area) - 1
+    int folded_texels = 0;        // of 512 x 512
     double least_jacobian = 0;
-    double make_ms = 0;          // once per day
-    double ms_per_megatexel = 0; // evaluation on the CPU in double precision, one thread
+    double make_ms = 0;          // once per day; CPU time, as is
+    double ms_per_megatexel = 0; // evaluation in double precision, one thread
 };
 
 inline constexpr double kLadderRatios[] = {1.2, .9, .6, .4, .2, .1, .05, .01};
+inline constexpr WarpRung kLadderRungs[] = {WarpRung::radial, WarpRung::grid, WarpRung::dense,
+                                            WarpRung::composed};
+inline constexpr double kErrorLimit = .25; // texels, of the default rung
 
-std::vector<LadderRow> measure_ladder(const std::vector<LadderShape>& shapes);
+/// A row for each ratio and rung.
+std::vector<LadderRow> measure_ladder(const LadderShape& shape);
 
-/// For each rung and ratio the worst over all shapes, then for each rung and shape the worst over all ratios:
-/// two Markdown tables.
-std::string ladder_markdown(const std::vector<LadderRow>& rows);
+/// Of the rungs that stay within kErrorLimit and do not fold in any row, the one whose costliest row is the
+/// cheapest.
+std::optional<WarpRung> cheapest_exact(const std::vector<LadderRow>& rows);
+
+/// A Markdown table: each rung's worst over all rows.
+std::string ladder_summary(const std::vector<LadderRow>& rows);
+/// Markdown tables, rung and ratio down, shapes across: error, area, folds, cost relative to the grid's.
+std::string ladder_tables(const std::vector<LadderRow>& rows);
+/// Every row, columns named and in the units of LadderRow.
+std::string ladder_csv(const std::vector<LadderRow>& rows);
+/// RGB. A panel for each shape: error against ratio, both logarithmic, with kErrorLimit and the folds.
+cv::Mat3b draw_ladder(const std::vector<LadderRow>& rows);
 
 /// Where the warp carries a curve of day 0: the forward map, by Newton's method.
 Polyline outline_today(const Warp& warp, const Polyline& day0);

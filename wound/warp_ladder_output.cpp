@@ -1,0 +1,232 @@
+// What a measured ladder looks like: as tables, as CSV, as a plot.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "wound/plot.hpp"
+#include "wound/warp_ladder.hpp"
+
+namespace wound {
+
+namespace {
+
+constexpr double kPatchTexels = 512. * 512;
+constexpr double kLeastDrawn = .01; // texels
+
+/// In their order.
+std::vector<std::string> shapes_of(const std::vector<LadderRow>& rows)
+{
+    std::vector<std::string> shapes;
+    for (const LadderRow& row : rows)
+        if (std::find(shapes.begin(), shapes.end(), row.shape) == shapes.end())
+            shapes.push_back(row.shape);
+    return shapes;
+}
+
+std::vector<LadderRow> of_rung(const std::vector<LadderRow>& rows, WarpRung rung)
+{
+    std::vector<LadderRow> kept;
+    std::copy_if(rows.begin(), rows.end(), std::back_inserter(kept),
+                 [rung](const LadderRow& row) { return row.rung == rung; });
+    return kept;
+}
+
+const LadderRow& find(const std::vector<LadderRow>& rows, const std::string& shape, WarpRung rung,
+                      double ratio)
+{
+    const auto found = std::find_if(rows.begin(), rows.end(), [&](const LadderRow& row) {
+        return row.shape == shape && row.rung == rung && row.ratio == ratio;
+    });
+    CV_Assert(found != rows.end());
+    return *found;
+}
+
+template <typename Value>
+double largest(const std::vector<LadderRow>& rows, Value value)
+{
+    double result = -1e300;
+    for (const LadderRow& row : rows)
+        result = std::max(result, static_cast<double>(value(row)));
+    return result;
+}
+
+/// One quantity over the whole cross; `cell` makes the text of a row.
+template <typename Cell>
+std::string table(const std::vector<LadderRow>& rows, const std::string& title,
+                  const std::vector<WarpRung>& rungs, Cell cell)
+{
+    const std::vector<std::string> shapes = shapes_of(rows);
+    std::string text = fmt::format("{}\n\n| rung | r |", title), line = "|---|---|";
+    for (const std::string& shape : shapes) {
+        text += fmt::format(" {} |", shape);
+        line += "---|";
+    }
+    text += "\n" + line + "\n";
+    for (const WarpRung rung : rungs)
+        for (const double ratio : kLadderRatios) {
+            text += fmt::format("| {} | {} |", name_of(rung), ratio);
+            for (const std::string& shape : shapes)
+                text += fmt::format(" {} |", cell(find(rows, shape, rung, ratio)));
+            text += "\n";
+        }
+    return text;
+}
+
+cv::Scalar color_of(WarpRung rung)
+{
+    return rung == WarpRung::radial ? cv::Scalar(214, 130, 20)
+           : rung == WarpRung::grid ? cv::Scalar(30, 100, 190)
+                                    : cv::Scalar(110, 70, 150);
+}
+
+const cv::Scalar kFold(225, 40, 40), kLimit(120, 120, 120);
+
+void draw_panel(const cv::Mat3b& picture, cv::Rect area, const std::vector<LadderRow>& rows,
+                const std::string& shape)
+{
+    constexpr Range kRatios{.008, 1.5, true}, kErrors{kLeastDrawn, 1000, true};
+    Plot plot(picture, area, kRatios, kErrors, shape, "r");
+    plot.line({{kRatios.low, kErrorLimit}, {kRatios.high, kErrorLimit}}, kLimit, 1);
+    for (const WarpRung rung : {WarpRung::dense, WarpRung::radial, WarpRung::grid}) {
+        std::vector<cv::Point2d> points, shrinking, folded;
+        for (const double ratio : kLadderRatios) {
+            const LadderRow& row = find(rows, shape, rung, ratio);
+            points.emplace_back(ratio, std::max(row.error_texels, kLeastDrawn));
+            if (ratio < 1) // in between, at 1, every warp is the identity
+                shrinking.push_back(points.back());
+            if (row.folded_texels > 0)
+                folded.push_back(points.back());
+        }
+        plot.points(folded, kFold, 7);
+        plot.line(shrinking, color_of(rung), 2);
+        plot.points(points, color_of(rung), 3);
+    }
+}
+
+void draw_legend(const cv::Mat3b& picture, cv::Rect area)
+{
+    cv::Mat3b target = picture;
+    cv::Point at = area.tl() + cv::Point(56, 50);
+    const auto entry = [&](const std::string& text) {
+        draw_text(picture, text, at + cv::Point(24, 0));
+        at.y += 24;
+    };
+    for (const WarpRung rung : {WarpRung::radial, WarpRung::grid, WarpRung::dense}) {
+        cv::line(target, at + cv::Point(-6, -5), at + cv::Point(16, -5), color_of(rung), 2, cv::LINE_AA);
+        cv::circle(target, at + cv::Point(5, -5), 3, color_of(rung), cv::FILLED, cv::LINE_AA);
+        entry(name_of(rung));
+    }
+    cv::circle(target, at + cv::Point(5, -5), 7, kFold, cv::FILLED, cv::LINE_AA);
+    entry("folded somewhere");
+    cv::line(target, at + cv::Point(-6, -5), at + cv::Point(16, -5), kLimit, 1);
+    entry(fmt::format("the limit, {} texel", kErrorLimit));
+    at += cv::Point(-6, 8);
+    for (const std::string& line :
+         {std::string("largest distance from the"), std::string("composed map, texels of 512 x 512;"),
+          fmt::format("below {} it lies on the axis", kLeastDrawn)})
+    {
+        draw_text(picture, line, at);
+        at.y += 18;
+    }
+}
+
+} // namespace
+
+std::optional<WarpRung> cheapest_exact(const std::vector<LadderRow>& rows)
+{
+    std::optional<WarpRung> cheapest;
+    double least_cost = 1e300;
+    for (const WarpRung rung : kLadderRungs) {
+        const std::vector<LadderRow> own = of_rung(rows, rung);
+        const double cost = largest(own, [](const LadderRow& row) { return row.ms_per_megatexel; });
+        const bool exact = std::all_of(own.begin(), own.end(), [](const LadderRow& row) {
+            return row.error_texels <= kErrorLimit && row.folded_texels == 0;
+        });
+        if (exact && cost < least_cost) {
+            cheapest = rung;
+            least_cost = cost;
+        }
+    }
+    return cheapest;
+}
+
+std::string ladder_summary(const std::vector<LadderRow>& rows)
+{
+    std::string text = "| rung | error, texels | near the wound | area, % | folded texels | least Jacobian | "
+                       "make, ms | CPU ms/megatexel |\n|---|---|---|---|---|---|---|---|\n";
+    for (const WarpRung rung : kLadderRungs) {
+        const std::vector<LadderRow> own = of_rung(rows, rung);
+        text += fmt::format(
+            "| {} | {:.3f} | {:.3f} | {:.2f} | {:.0f} | {:.3f} | {:.1f} .. {:.1f} | {:.0f} .. {:.0f} |\n",
+            name_of(rung), largest(own, [](const LadderRow& row) { return row.error_texels; }),
+            largest(own, [](const LadderRow& row) { return row.near_error_texels; }),
+            100 * largest(own, [](const LadderRow& row) { return std::abs(row.area_error); }),
+            largest(own, [](const LadderRow& row) { return row.folded_texels; }),
+            -largest(own, [](const LadderRow& row) { return -row.least_jacobian; }),
+            -largest(own, [](const LadderRow& row) { return -row.make_ms; }),
+            largest(own, [](const LadderRow& row) { return row.make_ms; }),
+            -largest(own, [](const LadderRow& row) { return -row.ms_per_megatexel; }),
+            largest(own, [](const LadderRow& row) { return row.ms_per_megatexel; }));
+    }
+    return text;
+}
+
+std::string ladder_tables(const std::vector<LadderRow>& rows)
+{
+    using enum WarpRung;
+    std::string text = table(rows, "Error, texels:", {radial, grid, dense},
+                             [](const LadderRow& row) { return fmt::format("{:.3f}", row.error_texels); });
+    text += table(rows, "\nArea error, %:", {radial, grid, dense, composed}, [](const LadderRow& row) {
+        const double hundredths = std::round(1e4 * row.area_error);
+        return fmt::format("{:.2f}", hundredths == 0 ? 0 : hundredths / 100);
+    });
+    text += table(rows, "\nLeast Jacobian, and the share of the patch that is folded:",
+                  {radial, grid, dense, composed}, [](const LadderRow& row) {
+                      return row.folded_texels == 0 ? fmt::format("{:.3f}", row.least_jacobian)
+                                                    : fmt::format("{:.3f}, {:.2g} %", row.least_jacobian,
+                                                                  100 * row.folded_texels / kPatchTexels);
+                  });
+    text += table(rows, "\nCost per texel, the grid's = 1:", {radial, dense, composed},
+                  [&](const LadderRow& row) {
+                      const double times =
+                          row.ms_per_megatexel / find(rows, row.shape, grid, row.ratio).ms_per_megatexel;
+                      return fmt::format("{:.{}f}", times, times < 10 ? 2 : 0);
+                  });
+    return text;
+}
+
+std::string ladder_csv(const std::vector<LadderRow>& rows)
+{
+    std::string text = "shape,rung,r,error_texels,near_error_texels,area_error,folded_texels,least_jacobian,"
+                       "make_ms,ms_per_megatexel\n";
+    for (const LadderRow& row : rows) {
+        std::string name; // a file's may hold anything
+        for (const char c : row.shape)
+            name += c == '"' ? std::string("\"\"") : std::string(1, c);
+        text +=
+            fmt::format("\"{}\",{},{},{:.6g},{:.6g},{:.6g},{},{:.6g},{:.6g},{:.6g}\n", name,
+                        name_of(row.rung), row.ratio, row.error_texels, row.near_error_texels, row.area_error,
+                        row.folded_texels, row.least_jacobian, row.make_ms, row.ms_per_megatexel);
+    }
+    return text;
+}
+
+cv::Mat3b draw_ladder(const std::vector<LadderRow>& rows)
+{
+    constexpr int kColumns = 4, kWidth = 300, kHeight = 240;
+    const std::vector<std::string> shapes = shapes_of(rows);
+    const int count = static_cast<int>(shapes.size()) + 1; // and the legend
+    const auto panel = [](int i) {
+        return cv::Rect(i % kColumns * kWidth, i / kColumns * kHeight, kWidth, kHeight);
+    };
+    cv::Mat3b picture((count + kColumns - 1) / kColumns * kHeight, kColumns * kWidth,
+                      cv::Vec3b(255, 255, 255));
+    for (int i = 0; i + 1 < count; ++i)
+        draw_panel(picture, panel(i), rows, shapes[i]);
+    draw_legend(picture, panel(count - 1));
+    return picture;
+}
+
+} // namespace wound
