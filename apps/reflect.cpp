@@ -111,6 +111,15 @@ void add_light_options(CLI::App& command, ReflectOptions& options)
     command.add_option("--angles", rung.angles, "Angles per panel of adding-doubling")
         ->check(CLI::Range(2, 64))
         ->capture_default_str();
+    command
+        .add_option_function<std::string>(
+            "--quadrature",
+            [&options](const std::string& text) {
+                options.rung_options.quadrature = text == "smooth" ? Quadrature::Smooth : Quadrature::Slab;
+            },
+            "Variable of those angles: the cosine in the thinnest medium that carries the light (smooth, "
+            "default) or in the densest, as Prahl's tables have it (slab)")
+        ->check(CLI::IsMember({"smooth", "slab"}));
 }
 
 } // namespace

@@ -18,8 +18,9 @@ struct Case
     std::string name;
     Stack stack;
     Incidence incidence;
-    std::optional<double> r, t; // published
-    double tolerance;           // of adding-doubling
+    std::optional<double> r, t;                 // published
+    double tolerance;                           // of adding-doubling
+    Quadrature quadrature = Quadrature::Smooth; // what the published value was computed with
 };
 
 Stack plate(double albedo, double optical_depth, double g, double n)
@@ -45,15 +46,16 @@ std::vector<Case> published_cases()
         {"Prahl 1995, a .99 b 10 g .76", plate(.99, 10, .76, 1.4), Incidence::Normal, .38425, .31760, 2e-4},
         {"Prahl 1995, a .99 b 10 g .76", plate(.99, 10, .76, 1.4), Incidence::Diffuse, .43099, .28563, 1e-3},
     };
-    // Prahl's half spaces rest on few angles at the critical angle: ours differs from the middle one
-    // by 2.1e-4.
+    // Prahl's half spaces carry the error of his sixteen angles, two tenths of a thousandth: they are met
+    // with his quadrature.
     for (const auto& [albedo, r] : {std::pair{.8, .18095}, {.95, .38711}, {.99, .63156}})
         cases.push_back({fmt::format("Prahl 1995, half space a {}", albedo),
                          {{{1 - albedo, albedo, 0, 1.4, infinity}}, 1, 1},
                          Incidence::Normal,
                          r,
                          0,
-                         2.2e-4});
+                         2e-4,
+                         Quadrature::Slab});
     return cases;
 }
 
@@ -84,8 +86,8 @@ std::vector<Case> random_cases()
 bool check_reflectance(const RungOptions& options, std::ostream& out)
 {
     bool good = true;
-    fmt::print(out, "{:34} {:8} {:>8} {:>9} {:>9} {:>9} {:>8} {:>6}\n", "case", "light", "quantity",
-               "published", "adding", "walk", "+-", "z");
+    fmt::print(out, "{:34} {:8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8} {:>6}\n", "case", "light", "quantity",
+               "published", "adding", "slab", "walk", "+-", "z");
     std::vector<Case> cases = published_cases();
     for (Case& c : random_cases())
         cases.push_back(std::move(c));
@@ -93,22 +95,27 @@ bool check_reflectance(const RungOptions& options, std::ostream& out)
         RungOptions light = options;
         light.incidence = c.incidence;
         const Response adding = reflectance(c.stack, Rung::AddingDoubling, light);
+        light.quadrature = Quadrature::Slab;
+        const Response slab = reflectance(c.stack, Rung::AddingDoubling, light);
         const Response walk = reflectance(c.stack, Rung::MonteCarlo, light);
         const double t_error =
             std::sqrt(walk.t * (1 - walk.t) / static_cast<double>(options.photons)); // upper bound
-        const auto line = [&](std::string_view quantity, std::optional<double> known, double a, double w,
-                              double error) {
+        const auto line = [&](std::string_view quantity, std::optional<double> known, double a, double s,
+                              double w, double error) {
             // The published digits are themselves rounded; without one the two rungs must agree.
             const double z = (w - known.value_or(a)) / std::max(error, 1e-5);
-            const bool passed = known ? std::abs(a - *known) <= c.tolerance && std::abs(z) <= 4
-                                      : std::abs(w - a) <= std::max(1e-3, 4 * error);
+            const bool passed =
+                known ? std::abs((c.quadrature == Quadrature::Slab ? s : a) - *known) <= c.tolerance &&
+                            std::abs(z) <= 4
+                      : std::abs(w - a) <= std::max(1e-3, 4 * error);
             good = good && passed;
-            fmt::print(out, "{:34} {:8} {:>8} {:>9} {:9.5f} {:9.5f} {:8.5f} {:6.2f} {}\n", c.name,
+            fmt::print(out, "{:34} {:8} {:>8} {:>9} {:9.5f} {:9.5f} {:9.5f} {:8.5f} {:6.2f} {}\n", c.name,
                        c.incidence == Incidence::Normal ? "normal" : "diffuse", quantity,
-                       known ? fmt::format("{:.5f}", *known) : "-", a, w, error, z, passed ? "" : "FAILED");
+                       known ? fmt::format("{:.5f}", *known) : "-", a, s, w, error, z,
+                       passed ? "" : "FAILED");
         };
-        line("r", c.r, adding.r, walk.r, walk.standard_error);
-        line("t", c.t, adding.t, walk.t, t_error);
+        line("r", c.r, adding.r, slab.r, walk.r, walk.standard_error);
+        line("t", c.t, adding.t, slab.t, walk.t, t_error);
     }
     return good;
 }

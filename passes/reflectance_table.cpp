@@ -52,7 +52,8 @@ std::uint64_t table_key(std::span<const wound::TissueDay> rows, std::uint32_t wi
     for (std::uint64_t bits :
          {table_version, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(rung),
           static_cast<std::uint64_t>(options.incidence), static_cast<std::uint64_t>(options.fresnel),
-          static_cast<std::uint64_t>(options.angles), options.photons, options.seed})
+          static_cast<std::uint64_t>(options.angles), static_cast<std::uint64_t>(options.quadrature),
+          options.photons, options.seed})
         key.add(bits);
     for (const wound::TissueDay& day : rows) {
         for (double value : {day.missing_ratio, day.regrown_ratio, day.intact.n_above, day.intact.n_below})

@@ -47,9 +47,8 @@ void gauss_legendre(int count, ArrayXd& x, ArrayXd& w)
     }
 }
 
-// A panel reaches from one medium's critical s to the next. Within it the variable is the cosine in the
-// thinnest medium that still carries the light, in which Fresnel's formulas are smooth.
-Nodes make_nodes(const Stack& stack, int angles)
+// A panel reaches from one medium's critical s to the next.
+Nodes make_nodes(const Stack& stack, int angles, Quadrature quadrature)
 {
     std::vector<double> indices{stack.n_above, stack.n_below};
     for (const LayerOptics& layer : stack.layers)
@@ -66,11 +65,16 @@ Nodes make_nodes(const Stack& stack, int angles)
     Nodes nodes{ArrayXd::Zero(count), ArrayXd::Constant(count, 1e-10)};
     double start = 0;
     for (std::size_t p = 0; p < ends.size(); ++p) {
-        const double n = ends[p], widest = std::sqrt(1 - start * start / (n * n));
+        // The variable is the cosine in a medium of index n, from that of the panel's end to that of its
+        // start.
+        const double n = quadrature == Quadrature::Smooth ? ends[p] : ends.back();
+        const double low = std::sqrt(1 - ends[p] * ends[p] / (n * n));
+        const double high = std::sqrt(1 - start * start / (n * n));
+        const ArrayXd cosine = low + (high - low) * x;
         const auto first = static_cast<Eigen::Index>(p) * angles + 1;
-        nodes.s2.segment(first, angles) = n * n * (1 - (widest * x).square());
-        nodes.weight.segment(first, angles) = n * n * widest * widest * x * w;
-        start = n;
+        nodes.s2.segment(first, angles) = n * n * (1 - cosine.square());
+        nodes.weight.segment(first, angles) = n * n * (high - low) * cosine * w;
+        start = ends[p];
     }
     return nodes;
 }
@@ -179,7 +183,7 @@ Operator layer_operator(const Nodes& nodes, const LayerOptics& layer, int angles
 Response adding_doubling(const Stack& stack, const RungOptions& options)
 {
     const int angles = std::clamp(options.angles, 2, 64);
-    const Nodes nodes = make_nodes(stack, angles);
+    const Nodes nodes = make_nodes(stack, angles, options.quadrature);
     std::vector<Operator> list;
     double above = stack.n_above;
     for (const LayerOptics& layer : stack.layers) {

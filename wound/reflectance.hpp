@@ -36,14 +36,24 @@ enum class DiffuseFresnel
     Polynomial,
 };
 
+/// Where adding-doubling's angles lie: Gauss-Legendre nodes of each panel, in the cosine of the thinnest
+/// medium that carries the light there, in which Fresnel's formulas are smooth; or in that of the densest, as
+/// Prahl 1995 has them, which converges slowly at the critical angle and is how his tables were made.
+enum class Quadrature
+{
+    Smooth,
+    Slab,
+};
+
 struct RungOptions
 {
     Incidence incidence = Incidence::Diffuse;
     DiffuseFresnel fresnel = DiffuseFresnel::Exact; // analytic rungs
-    int angles = 8;                                 // adding-doubling
+    int angles = 8;                                 // adding-doubling, per panel
+    Quadrature quadrature = Quadrature::Smooth;     // adding-doubling
     std::uint64_t photons = 1'000'000, seed = 1;    // Monte Carlo
     unsigned threads = 0;                           // Monte Carlo; 0: one per core
-    std::function<void(double)> progress = {}; // the finished share, by one thread at a time
+    std::function<void(double)> progress = {};      // the finished share, by one thread at a time
 };
 
 struct Response
