@@ -33,7 +33,6 @@ struct CompareOptions : SceneOptions
 };
 
 // ---- The page: a row for each picture, A | B | difference, and a bar that says what its colours mean
-// ---------
 
 constexpr int cell_width = 420, gap = 12, title_height = 44, label_height = 30, bar_width = 90;
 constexpr std::size_t most_rows = 24; // chosen evenly from all pictures
@@ -105,7 +104,6 @@ cv::Mat3b draw_page(const std::array<std::string, 3>& titles, const std::vector<
 }
 
 // ---- The comparison
-// ------------------------------------------------------------------------------------------
 
 std::string name_of(const std::string& file)
 {

@@ -1,6 +1,7 @@
 #define VOLK_IMPLEMENTATION
 #include "engine/device.hpp"
 
+#include "engine/command_buffer.hpp"
 #include "engine/vulkan_check.hpp"
 #include "wound/input_error.hpp"
 
@@ -246,43 +247,10 @@ std::uint32_t Device::memory_type(std::uint32_t allowed_types,
 
 void Device::run_once(const std::function<void(VkCommandBuffer)>& record) const
 {
-    // Destroyed on every way out; destroying the pool frees the command buffer.
-    struct Objects
-    {
-        VkDevice device;
-        VkCommandPool pool = VK_NULL_HANDLE;
-        VkFence fence = VK_NULL_HANDLE;
-        ~Objects()
-        {
-            vkDestroyFence(device, fence, nullptr);
-            vkDestroyCommandPool(device, pool, nullptr);
-        }
-    } objects{.device = vk_device};
-    const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                            .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-                                            .queueFamilyIndex = physical.queue_family};
-    check(vkCreateCommandPool(vk_device, &pool_info, nullptr, &objects.pool), "create a command pool");
-    const VkCommandBufferAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                               .commandPool = objects.pool,
-                                               .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                               .commandBufferCount = 1};
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    check(vkAllocateCommandBuffers(vk_device, &allocate, &commands), "allocate a command buffer");
-    const VkFenceCreateInfo fence_info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    check(vkCreateFence(vk_device, &fence_info, nullptr, &objects.fence), "create a fence");
-
-    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    check(vkBeginCommandBuffer(commands, &begin), "record an upload");
-    record(commands);
-    check(vkEndCommandBuffer(commands), "record an upload");
-    const VkCommandBufferSubmitInfo buffer_info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
-                                                .commandBuffer = commands};
-    const VkSubmitInfo2 submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                               .commandBufferInfoCount = 1,
-                               .pCommandBufferInfos = &buffer_info};
-    check(vkQueueSubmit2(vk_queue, 1, &submit, objects.fence), "submit an upload");
-    check(vkWaitForFences(vk_device, 1, &objects.fence, VK_TRUE, UINT64_MAX), "finish an upload");
+    CommandBuffer commands(vk_device, vk_queue, physical.queue_family);
+    record(commands.begin());
+    commands.submit();
+    commands.wait();
 }
 
 void Device::name(VkObjectType type, std::uint64_t object, const std::string& name) const

@@ -10,9 +10,6 @@
 
 namespace engine {
 
-// ---- UploadArena
-// -------------------------------------------------------------------------------------------------
-
 UploadedData UploadArena::add(std::span<const std::byte> bytes, VkDeviceSize size, VkDeviceSize alignment)
 {
     constexpr VkDeviceSize block_size = 256 * 1024;
@@ -41,93 +38,16 @@ void UploadArena::reset()
     used = 0;
 }
 
-// ---- FrameSlot
-// ---------------------------------------------------------------------------------------------------
-
-FrameSlot::FrameSlot(const Device& used)
-    : device(used), uploads(used), timestamps(used, VK_QUERY_TYPE_TIMESTAMP),
-      counts(used, VK_QUERY_TYPE_PIPELINE_STATISTICS,
-             VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT |
-                 VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT |
-                 VK_QUERY_PIPELINE_STATISTIC_COMPUTE_SHADER_INVOCATIONS_BIT)
+DescriptorArena::~DescriptorArena()
 {
-    try {
-        const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                                .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-                                                .queueFamilyIndex = device.queue_family()};
-        check(vkCreateCommandPool(device.handle(), &pool_info, nullptr, &pool), "create a command pool");
-        const VkCommandBufferAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                                   .commandPool = pool,
-                                                   .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                                   .commandBufferCount = 1};
-        check(vkAllocateCommandBuffers(device.handle(), &allocate, &commands), "allocate a command buffer");
-        const VkFenceCreateInfo fence_info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-        check(vkCreateFence(device.handle(), &fence_info, nullptr, &fence), "create a fence");
-    } catch (...) {
-        destroy();
-        throw;
-    }
+    for (const VkDescriptorPool made : pools)
+        vkDestroyDescriptorPool(device.handle(), made, nullptr);
 }
 
-FrameSlot::~FrameSlot()
+VkDescriptorSet DescriptorArena::allocate(VkDescriptorSetLayout layout)
 {
-    destroy();
-}
-
-void FrameSlot::destroy()
-{
-    if (in_flight) // nothing can be done about a lost device here; everything is destroyed all the same
-        vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, UINT64_MAX);
-    for (const VkDescriptorPool descriptors : descriptor_pools)
-        vkDestroyDescriptorPool(device.handle(), descriptors, nullptr);
-    vkDestroyFence(device.handle(), fence, nullptr);
-    vkDestroyCommandPool(device.handle(), pool, nullptr);
-}
-
-VkCommandBuffer FrameSlot::begin(std::uint32_t most_timestamps, std::uint32_t most_counts)
-{
-    wait();
-    uploads.reset();
-    for (const VkDescriptorPool descriptors : descriptor_pools)
-        check(vkResetDescriptorPool(device.handle(), descriptors, 0), "reset descriptors");
-    descriptor_pool = 0;
-    check(vkResetCommandPool(device.handle(), pool, 0), "reset commands");
-    const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    check(vkBeginCommandBuffer(commands, &info), "record a frame");
-    timestamps.begin_frame(commands, device.timestamp_bits() > 0 ? most_timestamps : 0);
-    counts.begin_frame(commands, device.info().statistics ? most_counts : 0);
-    return commands;
-}
-
-void FrameSlot::submit(bool calibrate)
-{
-    check(vkEndCommandBuffer(commands), "record a frame");
-    check(vkResetFences(device.handle(), 1, &fence), "reset a fence");
-    const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
-                                           .commandBuffer = commands};
-    const VkSubmitInfo2 info{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                             .commandBufferInfoCount = 1,
-                             .pCommandBufferInfos = &buffer};
-    calibration = calibrate ? device.calibrate() : std::nullopt;
-    check(vkQueueSubmit2(device.queue(), 1, &info, fence), "submit a frame");
-    in_flight = true;
-}
-
-void FrameSlot::wait()
-{
-    if (!in_flight)
-        return;
-    check(vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "finish a frame");
-    in_flight = false;
-    timestamps.fetch();
-    counts.fetch();
-}
-
-VkDescriptorSet FrameSlot::allocate_set(VkDescriptorSetLayout layout)
-{
-    for (;; ++descriptor_pool) {
-        const bool fresh = descriptor_pool == descriptor_pools.size();
+    for (;; ++pool) {
+        const bool fresh = pool == pools.size();
         if (fresh) {
             constexpr std::array<VkDescriptorPoolSize, 4> sizes{{
                 {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 512},
@@ -141,10 +61,10 @@ VkDescriptorSet FrameSlot::allocate_set(VkDescriptorSetLayout layout)
                                                   .pPoolSizes = sizes.data()};
             VkDescriptorPool made = VK_NULL_HANDLE;
             check(vkCreateDescriptorPool(device.handle(), &info, nullptr, &made), "create descriptors");
-            descriptor_pools.push_back(made);
+            pools.push_back(made);
         }
         const VkDescriptorSetAllocateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                               .descriptorPool = descriptor_pools[descriptor_pool],
+                                               .descriptorPool = pools[pool],
                                                .descriptorSetCount = 1,
                                                .pSetLayouts = &layout};
         VkDescriptorSet set = VK_NULL_HANDLE;
@@ -155,6 +75,48 @@ VkDescriptorSet FrameSlot::allocate_set(VkDescriptorSetLayout layout)
         if (!full || fresh)
             check(result, "allocate descriptors");
     }
+}
+
+void DescriptorArena::reset()
+{
+    for (const VkDescriptorPool made : pools)
+        check(vkResetDescriptorPool(device.handle(), made, 0), "reset descriptors");
+    pool = 0;
+}
+
+FrameSlot::FrameSlot(const Device& used)
+    : device(used), uploads(used), sets(used), timestamps(used, VK_QUERY_TYPE_TIMESTAMP),
+      counts(used, VK_QUERY_TYPE_PIPELINE_STATISTICS,
+             VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT |
+                 VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT |
+                 VK_QUERY_PIPELINE_STATISTIC_COMPUTE_SHADER_INVOCATIONS_BIT),
+      commands(used.handle(), used.queue(), used.queue_family())
+{
+}
+
+VkCommandBuffer FrameSlot::begin(std::uint32_t most_timestamps, std::uint32_t most_counts)
+{
+    wait();
+    uploads.reset();
+    sets.reset();
+    const VkCommandBuffer begun = commands.begin();
+    timestamps.begin_frame(begun, device.timestamp_bits() > 0 ? most_timestamps : 0);
+    counts.begin_frame(begun, device.info().statistics ? most_counts : 0);
+    return begun;
+}
+
+void FrameSlot::submit(bool calibrate)
+{
+    calibration = calibrate ? device.calibrate() : std::nullopt;
+    commands.submit();
+}
+
+void FrameSlot::wait()
+{
+    if (!commands.wait())
+        return;
+    timestamps.fetch();
+    counts.fetch();
 }
 
 double FrameSlot::milliseconds(std::size_t from, std::size_t to) const

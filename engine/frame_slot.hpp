@@ -1,5 +1,6 @@
 // What one frame in flight needs of its own: commands, descriptors, a place for uniforms, timestamps.
 #pragma once
+#include "engine/command_buffer.hpp"
 #include "engine/device.hpp"
 #include "engine/memory.hpp"
 #include "engine/queries.hpp"
@@ -35,6 +36,23 @@ class UploadArena
     VkDeviceSize used = 0; // bytes of it
 };
 
+/// Descriptor sets of one frame; grows by whole pools, which are kept for the frames to come.
+class DescriptorArena
+{
+  public:
+    explicit DescriptorArena(const Device& on) : device(on) {}
+    ~DescriptorArena();
+    DescriptorArena(const DescriptorArena&) = delete;
+    DescriptorArena& operator=(const DescriptorArena&) = delete;
+    VkDescriptorSet allocate(VkDescriptorSetLayout layout);
+    void reset();
+
+  private:
+    const Device& device;
+    std::vector<VkDescriptorPool> pools;
+    std::size_t pool = 0; // being filled
+};
+
 /// How often each kind of shader ran. A rasteriser may count helper invocations, or save some.
 struct Invocations
 {
@@ -45,9 +63,6 @@ class FrameSlot
 {
   public:
     explicit FrameSlot(const Device& device);
-    ~FrameSlot();
-    FrameSlot(const FrameSlot&) = delete;
-    FrameSlot& operator=(const FrameSlot&) = delete;
 
     /// Waits for the frame that used the slot last, begins recording; room for so many timestamps and counts.
     VkCommandBuffer begin(std::uint32_t timestamps, std::uint32_t counts);
@@ -55,13 +70,16 @@ class FrameSlot
     void submit(bool calibrate);
     void wait();
 
-    VkDescriptorSet allocate_set(VkDescriptorSetLayout layout);
+    VkDescriptorSet allocate_set(VkDescriptorSetLayout layout) { return sets.allocate(layout); }
     UploadArena& arena() { return uploads; }
-    void timestamp() { timestamps.timestamp(commands); } // does nothing on a device without timestamps
+    void timestamp()
+    {
+        timestamps.timestamp(commands.handle());
+    } // does nothing on a device without timestamps
     /// Counts what is recorded in between, outside of rendering; nothing when no room was asked for or the
     /// device cannot.
-    void begin_count() { counts.begin(commands); }
-    void end_count() { counts.end(commands); }
+    void begin_count() { counts.begin(commands.handle()); }
+    void end_count() { counts.end(commands.handle()); }
     /// Milliseconds between two timestamps of a finished frame. Only when has_timestamps().
     double milliseconds(std::size_t from, std::size_t to) const;
     bool has_timestamps() const { return !timestamps.values().empty(); }
@@ -78,19 +96,13 @@ class FrameSlot
     const Buffer& readback(VkDeviceSize bytes);
 
   private:
-    void destroy();
-
     const Device& device;
     UploadArena uploads;
-    VkCommandPool pool = VK_NULL_HANDLE;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    VkFence fence = VK_NULL_HANDLE;
-    bool in_flight = false;
-    std::vector<VkDescriptorPool> descriptor_pools;
-    std::size_t descriptor_pool = 0; // being filled
+    DescriptorArena sets;
     Queries timestamps, counts;
     std::optional<Device::Calibration> calibration; // of the frame submitted last
     Buffer readback_buffer;
+    CommandBuffer commands; // last: it waits before what it uses goes
 };
 
 } // namespace engine

@@ -51,7 +51,6 @@ bool transient(VkImageUsageFlags usage)
 } // namespace
 
 // ---- Buffer
-// ------------------------------------------------------------------------------------------------------
 
 Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, HostAccess host,
                const std::string& name)
@@ -109,7 +108,6 @@ void Buffer::invalidate() const
 }
 
 // ---- Image
-// -------------------------------------------------------------------------------------------------------
 
 Image::Image(const Device& device, const ImageDesc& desc, std::uint32_t mip_levels, VkImageUsageFlags usage,
              const std::string& name)

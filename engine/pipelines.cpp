@@ -2,6 +2,7 @@
 
 #include "engine/device.hpp"
 #include "engine/mesh_buffer.hpp"
+#include "engine/raster_pipeline.hpp"
 #include "engine/vulkan_check.hpp"
 
 #include <bit>
@@ -33,13 +34,9 @@ void add_constants(PipelineKey& key, const ShaderGroup& group, const BindingScop
 /// One shader stage with its specialisation constants; lives until the pipeline is made.
 struct Stage
 {
-    Stage(VkDevice used, const Shader& shader, const PipelineKey& key) : device(used)
+    Stage(VkDevice device, const Shader& shader, const PipelineKey& key)
+        : module(device, shader.words, std::string(shader.name))
     {
-        const VkShaderModuleCreateInfo module_info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                                   .codeSize = shader.words.size_bytes(),
-                                                   .pCode = shader.words.data()};
-        check(vkCreateShaderModule(device, &module_info, nullptr, &module),
-              fmt::format("load shader {}", shader.name));
         for (const auto& [name, bits] : key.constants)
             if (const ShaderConstant* constant = shader.interface.find_constant(name)) {
                 entries.push_back(
@@ -52,18 +49,10 @@ struct Stage
                           .pMapEntries = entries.data(),
                           .dataSize = values.size() * sizeof(std::uint32_t),
                           .pData = values.data()};
-        info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                .stage = shader.interface.stage,
-                .module = module,
-                .pName = "main",
-                .pSpecializationInfo = &specialisation};
+        info = module.stage(shader.interface.stage, &specialisation);
     }
-    ~Stage() { vkDestroyShaderModule(device, module, nullptr); }
-    Stage(const Stage&) = delete;
-    Stage& operator=(const Stage&) = delete;
 
-    VkDevice device;
-    VkShaderModule module = VK_NULL_HANDLE;
+    ShaderModule module;
     std::vector<VkSpecializationMapEntry> entries;
     std::vector<std::uint32_t> values;
     VkSpecializationInfo specialisation{};
@@ -83,19 +72,6 @@ std::vector<VkVertexInputAttributeDescription> attributes(const ShaderInterface&
                         .offset = vertex_attribute(input.name)->offset});
     }
     return list;
-}
-
-VkPipelineColorBlendAttachmentState blend_state(bool blend)
-{
-    return {.blendEnable = blend,
-            .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
-            .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-            .colorBlendOp = VK_BLEND_OP_ADD,
-            .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-            .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-            .alphaBlendOp = VK_BLEND_OP_ADD,
-            .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
-                              VK_COLOR_COMPONENT_A_BIT};
 }
 
 } // namespace
@@ -204,68 +180,19 @@ VkPipeline Pipelines::make_raster(const PipelineKey& key, const ShaderGroup& gro
         fragment(device.handle(), *group.stages[1], key);
     const std::array stages{vertex.info, fragment.info};
     const auto inputs = attributes(group.stages[0]->interface);
-    const VkVertexInputBindingDescription vertices{
-        .binding = 0, .stride = sizeof(Vertex), .inputRate = VK_VERTEX_INPUT_RATE_VERTEX};
-    const VkPipelineVertexInputStateCreateInfo vertex_input{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-        .vertexBindingDescriptionCount = inputs.empty() ? 0u : 1u,
-        .pVertexBindingDescriptions = &vertices,
-        .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(inputs.size()),
-        .pVertexAttributeDescriptions = inputs.data()};
-    const VkPipelineInputAssemblyStateCreateInfo assembly{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
-    const VkPipelineViewportStateCreateInfo viewport{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
-        .viewportCount = 1,
-        .scissorCount = 1};
-    const VkPipelineRasterizationStateCreateInfo rasterisation{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-        .polygonMode = VK_POLYGON_MODE_FILL,
-        .cullMode =
-            static_cast<VkCullModeFlags>(key.cull_back_faces ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
-        .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
-        .lineWidth = 1.0f};
-    const VkPipelineMultisampleStateCreateInfo multisample{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-        .rasterizationSamples = static_cast<VkSampleCountFlagBits>(key.samples)};
-    const VkPipelineDepthStencilStateCreateInfo depth{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
-        .depthTestEnable = key.depth_test,
-        .depthWriteEnable = key.depth_write,
-        .depthCompareOp = VK_COMPARE_OP_LESS_OR_EQUAL};
-    const std::vector<VkPipelineColorBlendAttachmentState> blends(key.colors.size(), blend_state(key.blend));
-    const VkPipelineColorBlendStateCreateInfo blend{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-        .attachmentCount = static_cast<std::uint32_t>(blends.size()),
-        .pAttachments = blends.data()};
-    constexpr std::array dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    const VkPipelineDynamicStateCreateInfo dynamic{.sType =
-                                                       VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-                                                   .dynamicStateCount = dynamic_states.size(),
-                                                   .pDynamicStates = dynamic_states.data()};
-    const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
-                                                  .colorAttachmentCount =
-                                                      static_cast<std::uint32_t>(key.colors.size()),
-                                                  .pColorAttachmentFormats = key.colors.data(),
-                                                  .depthAttachmentFormat = key.depth};
-    const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-                                            .pNext = &rendering,
-                                            .stageCount = stages.size(),
-                                            .pStages = stages.data(),
-                                            .pVertexInputState = &vertex_input,
-                                            .pInputAssemblyState = &assembly,
-                                            .pViewportState = &viewport,
-                                            .pRasterizationState = &rasterisation,
-                                            .pMultisampleState = &multisample,
-                                            .pDepthStencilState = &depth,
-                                            .pColorBlendState = &blend,
-                                            .pDynamicState = &dynamic,
-                                            .layout = layout};
-    VkPipeline made = VK_NULL_HANDLE;
-    check(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &made),
-          fmt::format("compile {}", key.shader));
-    return made;
+    return make_raster_pipeline(device.handle(),
+                                {.stages = stages,
+                                 .vertex_stride = sizeof(Vertex),
+                                 .attributes = inputs,
+                                 .colors = key.colors,
+                                 .depth = key.depth,
+                                 .samples = key.samples,
+                                 .cull_back_faces = key.cull_back_faces,
+                                 .blend = key.blend,
+                                 .depth_test = key.depth_test,
+                                 .depth_write = key.depth_write,
+                                 .layout = layout},
+                                key.shader);
 }
 
 void Pipelines::make_samplers()

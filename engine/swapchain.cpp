@@ -104,24 +104,14 @@ PlacedPicture clipped(PlacedPicture picture, std::array<std::uint32_t, 2> window
     return picture;
 }
 
-Swapchain::Swapchain(const Device& used, const Window& shown) : device(used), window(shown), ui_renderer(used)
+Swapchain::Swapchain(const Device& used, const Window& shown)
+    : device(used), window(shown), ui_renderer(used),
+      commands(used.handle(), used.queue(), used.queue_family())
 {
     try {
         make_surface();
-        const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                                .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
-                                                .queueFamilyIndex = device.queue_family()};
-        check(vkCreateCommandPool(device.handle(), &pool_info, nullptr, &pool), "create a command pool");
-        const VkCommandBufferAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                                   .commandPool = pool,
-                                                   .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                                   .commandBufferCount = 1};
-        check(vkAllocateCommandBuffers(device.handle(), &allocate, &commands), "allocate a command buffer");
         const VkSemaphoreCreateInfo semaphore{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
         check(vkCreateSemaphore(device.handle(), &semaphore, nullptr, &acquired), "create a semaphore");
-        const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO,
-                                      .flags = VK_FENCE_CREATE_SIGNALED_BIT};
-        check(vkCreateFence(device.handle(), &fence, nullptr, &drawn), "create a fence");
     } catch (...) {
         destroy();
         throw;
@@ -139,9 +129,7 @@ void Swapchain::destroy()
     destroy_swapchain();
     if (surface)
         vkDestroySurfaceKHR(device.instance(), surface, nullptr);
-    vkDestroyFence(device.handle(), drawn, nullptr);
     vkDestroySemaphore(device.handle(), acquired, nullptr);
-    vkDestroyCommandPool(device.handle(), pool, nullptr);
 }
 
 void Swapchain::destroy_swapchain()
@@ -301,7 +289,7 @@ bool Swapchain::show(const WindowFrame& frame)
     if (!match_window())
         return false;
     // The last frame's commands, vertices and semaphore are used again.
-    check(vkWaitForFences(device.handle(), 1, &drawn, VK_TRUE, ~0ull), "wait for the last frame");
+    commands.wait();
     std::uint32_t index = 0;
     const VkResult got =
         vkAcquireNextImageKHR(device.handle(), swapchain, patience_ns, acquired, VK_NULL_HANDLE, &index);
@@ -314,12 +302,14 @@ bool Swapchain::show(const WindowFrame& frame)
             check(got, "get the window's next image");
         return false;
     }
-    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    check(vkBeginCommandBuffer(commands, &begin), "record the window's picture");
-    record(commands, frame, targets[index], VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
-    check(vkEndCommandBuffer(commands), "record the window's picture");
-    submit(finished[index]);
+    record(commands.begin(), frame, targets[index], VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+    const VkSemaphoreSubmitInfo wait{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+                                     .semaphore = acquired,
+                                     .stageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT},
+        signal{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+               .semaphore = finished[index],
+               .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
+    commands.submit({&wait, 1}, {&signal, 1});
     const VkPresentInfoKHR present{.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
                                    .waitSemaphoreCount = 1,
                                    .pWaitSemaphores = &finished[index],
@@ -337,32 +327,11 @@ bool Swapchain::show(const WindowFrame& frame)
     return shown != VK_ERROR_OUT_OF_DATE_KHR;
 }
 
-void Swapchain::submit(VkSemaphore when_finished)
-{
-    check(vkResetFences(device.handle(), 1, &drawn), "start a frame");
-    const VkSemaphoreSubmitInfo wait{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
-                                     .semaphore = acquired,
-                                     .stageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT},
-        signal{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
-               .semaphore = when_finished,
-               .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
-    const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
-                                           .commandBuffer = commands};
-    const VkSubmitInfo2 info{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                             .waitSemaphoreInfoCount = 1,
-                             .pWaitSemaphoreInfos = &wait,
-                             .commandBufferInfoCount = 1,
-                             .pCommandBufferInfos = &buffer,
-                             .signalSemaphoreInfoCount = 1,
-                             .pSignalSemaphoreInfos = &signal};
-    check(vkQueueSubmit2(device.queue(), 1, &info, drawn), "draw the window's picture");
-}
-
 cv::Mat3b Swapchain::picture_of(const WindowFrame& frame)
 {
     if (!match_window())
         return {};
-    check(vkWaitForFences(device.handle(), 1, &drawn, VK_TRUE, ~0ull), "wait for the last frame");
+    commands.wait();
     constexpr VkFormat rgba = VK_FORMAT_R8G8B8A8_UNORM;
     const Image canvas(device, {extent.width, extent.height, rgba}, 1,
                        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |

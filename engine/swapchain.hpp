@@ -2,6 +2,7 @@
 // the window's size changes or the system takes them away, copies pictures into place and draws the interface
 // over them. One frame at a time: the next waits for the last.
 #pragma once
+#include "engine/command_buffer.hpp"
 #include "engine/device.hpp"
 #include "engine/ui_renderer.hpp"
 #include "engine/window.hpp"
@@ -71,7 +72,6 @@ class Swapchain
     void lose_surface();
     void record(VkCommandBuffer commands, const WindowFrame& frame, const Target& target,
                 VkImageLayout final_layout);
-    void submit(VkSemaphore finished);
 
     const Device& device;
     const Window& window;
@@ -83,10 +83,8 @@ class Swapchain
     std::vector<Target> targets;
     std::vector<VkSemaphore> finished; // by image: its frame is drawn
     bool outdated = true;
-    VkCommandPool pool = VK_NULL_HANDLE;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
     VkSemaphore acquired = VK_NULL_HANDLE;
-    VkFence drawn = VK_NULL_HANDLE; // signalled while nothing is in flight
+    CommandBuffer commands;
 };
 
 } // namespace engine

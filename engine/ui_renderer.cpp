@@ -1,6 +1,7 @@
 #include "engine/ui_renderer.hpp"
 
 #include "engine/embedded_shaders.hpp"
+#include "engine/raster_pipeline.hpp"
 #include "engine/vulkan_check.hpp"
 
 #include <algorithm>
@@ -20,53 +21,16 @@ struct Scale // as in ui.vert
     float clip_per_pixel[2], clip_of_origin[2];
 };
 
-/// Lives until the pipeline is made.
-class Module
+std::span<const std::uint32_t> words_of(std::string_view name)
 {
-  public:
-    Module(VkDevice on, std::string_view name) : device(on)
-    {
-        const auto shaders = embedded_shaders();
-        const auto found = std::ranges::find(shaders, name, &EmbeddedShader::name);
-        const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                            .codeSize = found->words.size_bytes(),
-                                            .pCode = found->words.data()};
-        check(vkCreateShaderModule(device, &info, nullptr, &module), fmt::format("load {}", name));
-    }
-    ~Module() { vkDestroyShaderModule(device, module, nullptr); }
-    Module(const Module&) = delete;
-    Module& operator=(const Module&) = delete;
-
-    VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits which) const
-    {
-        return {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                .stage = which,
-                .module = module,
-                .pName = "main"};
-    }
-
-  private:
-    VkDevice device;
-    VkShaderModule module = VK_NULL_HANDLE;
-};
+    return std::ranges::find(embedded_shaders(), name, &EmbeddedShader::name)->words;
+}
 
 void grow(Buffer& buffer, const Device& device, std::size_t bytes, VkBufferUsageFlags usage)
 {
     if (buffer.size() < bytes)
         buffer = Buffer(device, std::max<std::size_t>(2 * bytes, 1 << 16), usage, HostAccess::Write, "ui");
 }
-
-/// Source alpha over; the window itself stays opaque.
-constexpr VkPipelineColorBlendAttachmentState over{.blendEnable = VK_TRUE,
-                                                   .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
-                                                   .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-                                                   .colorBlendOp = VK_BLEND_OP_ADD,
-                                                   .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-                                                   .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-                                                   .alphaBlendOp = VK_BLEND_OP_ADD,
-                                                   .colorWriteMask =
-                                                       VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                                                       VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT};
 
 } // namespace
 
@@ -138,58 +102,22 @@ VkPipeline UiRenderer::pipeline_for(VkFormat format)
     VkPipeline& made = pipelines[format];
     if (made)
         return made;
-    const Module vertex(device.handle(), "ui.vert"), fragment(device.handle(), "ui.frag");
+    const ShaderModule vertex(device.handle(), words_of("ui.vert"), "ui.vert"),
+        fragment(device.handle(), words_of("ui.frag"), "ui.frag");
     const std::array stages{vertex.stage(VK_SHADER_STAGE_VERTEX_BIT),
                             fragment.stage(VK_SHADER_STAGE_FRAGMENT_BIT)};
-    const VkVertexInputBindingDescription binding{.stride = sizeof(ImDrawVert)};
-    const std::array<VkVertexInputAttributeDescription, 3> attributes{
+    constexpr std::array<VkVertexInputAttributeDescription, 3> attributes{
         {{.location = 0, .format = VK_FORMAT_R32G32_SFLOAT, .offset = offsetof(ImDrawVert, pos)},
          {.location = 1, .format = VK_FORMAT_R32G32_SFLOAT, .offset = offsetof(ImDrawVert, uv)},
          {.location = 2, .format = VK_FORMAT_R8G8B8A8_UNORM, .offset = offsetof(ImDrawVert, col)}}};
-    const VkPipelineVertexInputStateCreateInfo input{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-        .vertexBindingDescriptionCount = 1,
-        .pVertexBindingDescriptions = &binding,
-        .vertexAttributeDescriptionCount = std::uint32_t(attributes.size()),
-        .pVertexAttributeDescriptions = attributes.data()};
-    const VkPipelineInputAssemblyStateCreateInfo assembly{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
-    const VkPipelineViewportStateCreateInfo viewport{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
-        .viewportCount = 1,
-        .scissorCount = 1};
-    const VkPipelineRasterizationStateCreateInfo raster{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1};
-    const VkPipelineMultisampleStateCreateInfo samples{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
-    const VkPipelineColorBlendStateCreateInfo blend{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-        .attachmentCount = 1,
-        .pAttachments = &over};
-    constexpr std::array dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    const VkPipelineDynamicStateCreateInfo dynamic{.sType =
-                                                       VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-                                                   .dynamicStateCount = std::uint32_t(dynamic_states.size()),
-                                                   .pDynamicStates = dynamic_states.data()};
-    const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
-                                                  .colorAttachmentCount = 1,
-                                                  .pColorAttachmentFormats = &format};
-    const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-                                            .pNext = &rendering,
-                                            .stageCount = std::uint32_t(stages.size()),
-                                            .pStages = stages.data(),
-                                            .pVertexInputState = &input,
-                                            .pInputAssemblyState = &assembly,
-                                            .pViewportState = &viewport,
-                                            .pRasterizationState = &raster,
-                                            .pMultisampleState = &samples,
-                                            .pColorBlendState = &blend,
-                                            .pDynamicState = &dynamic,
-                                            .layout = layout};
-    check(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &made),
-          "compile the user interface's shaders");
+    made = make_raster_pipeline(device.handle(),
+                                {.stages = stages,
+                                 .vertex_stride = sizeof(ImDrawVert),
+                                 .attributes = attributes,
+                                 .colors = {&format, 1},
+                                 .blend = true,
+                                 .layout = layout},
+                                "the user interface");
     return made;
 }
 

@@ -19,10 +19,10 @@ WoundMaps upload_wound(const engine::Device& device, const wound::Patch& patch)
     shape.convertTo(half_shape, CV_16F);
 
     WoundMaps maps;
-    maps.color =
-        std::make_shared<const engine::Texture>(device, half_color, engine::Encoding::Linear, true, "day 0 color");
-    maps.shape =
-        std::make_shared<const engine::Texture>(device, half_shape, engine::Encoding::Linear, true, "day 0 shape");
+    maps.color = std::make_shared<const engine::Texture>(device, half_color, engine::Encoding::Linear, true,
+                                                         "day 0 color");
+    maps.shape = std::make_shared<const engine::Texture>(device, half_shape, engine::Encoding::Linear, true,
+                                                         "day 0 shape");
     maps.bed_luminance = wound::bed_luminance(patch);
     maps.width_mm = patch.width_mm;
     maps.size = patch.color.cols;
