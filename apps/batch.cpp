@@ -49,12 +49,24 @@ void check_place(const Variation& variation, const BatchOptions& options)
                                    "name another folder with --out");
 }
 
+/// Removed, whatever is in it, unless it was renamed.
+struct PartialFolder
+{
+    std::filesystem::path path;
+    ~PartialFolder()
+    {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+};
+
 void draw_variation(Renderer& renderer, const Stage& stage, const Variation& variation,
                     const BatchOptions& options)
 {
     const std::filesystem::path folder = options.out / variation.name;
     const std::filesystem::path partial = options.out / fmt::format(".{}.partial", variation.name);
     std::filesystem::remove_all(partial);
+    const PartialFolder removed{partial};
     make_folder(partial);
     CaptureOptions capture_options;
     capture_options.out = partial;

@@ -1,6 +1,7 @@
 // The program: `cicatrix COMMAND ...`. Each command registers itself; what a user's file or machine does
 // wrong ends as one line on stderr and exit code 1.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include "apps/demo.hpp"
 #include "apps/graph_command.hpp"
 #include "apps/info.hpp"
+#include "apps/interrupt.hpp"
 #include "apps/reflect.hpp"
 #include "apps/report.hpp"
 #include "apps/wound_commands.hpp"
@@ -84,7 +86,13 @@ int main(int argc, char** argv)
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) // --help
             return program.exit(error);
-        return report(std::string(error.what()) + "; see cicatrix --help") + 1;
+        std::string command = "cicatrix";
+        for (const CLI::App* used : program.get_subcommands())
+            command += ' ' + used->get_name();
+        return report(fmt::format("{}; see {} --help", error.what(), command)) + 1;
+    } catch (const app::Interrupted&) {
+        report("stopped");
+        return 128 + SIGINT;
     } catch (const std::exception& error) {
         return report(error.what());
     }

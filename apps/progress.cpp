@@ -26,6 +26,7 @@ Progress::~Progress()
 
 void Progress::show(const std::string& what)
 {
+    check_interrupt();
     const Clock::time_point now = Clock::now();
     if (!terminal_ || now - shown_ < std::chrono::milliseconds(100)) // a terminal is slow, and so is the eye
         return;

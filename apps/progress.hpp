@@ -1,9 +1,11 @@
 // One line on a terminal that says how far long work is: count, percentage, time left. On anything else than
-// a terminal it says nothing.
+// a terminal it says nothing. Where it is told of progress, Ctrl-C is heeded.
 #pragma once
 #include <chrono>
 #include <cstddef>
 #include <string>
+
+#include "apps/interrupt.hpp"
 
 namespace app {
 
@@ -18,7 +20,7 @@ class Progress
 
     /// So many more steps are ahead.
     void expect(std::size_t steps) { expected_ += steps; }
-    /// What is being done, and that a step of it is done.
+    /// What is being done, and that a step of it is done. show() throws Interrupted after Ctrl-C.
     void show(const std::string& what);
     void step();
     /// Takes the line away, so that something else can be printed; the next show() puts it back.
@@ -26,6 +28,7 @@ class Progress
 
   private:
     using Clock = std::chrono::steady_clock;
+    Interruptible interruptible_;
     const bool terminal_;
     const Clock::time_point start_ = Clock::now();
     Clock::time_point shown_{};

@@ -110,7 +110,15 @@ cv::Mat3f bake_reflectance_table(std::span<const wound::TissueDay> rows, std::ui
     const auto deepest = static_cast<float>(deepest_injury_mm(rows.front().intact));
     std::atomic<int> next{0};
     const std::thread::id caller = std::this_thread::get_id();
+    // Whoever stops, by progress that threw, stops all.
+    struct Stop
+    {
+        std::atomic<int>& next;
+        int count;
+        ~Stop() { next = count; }
+    };
     const auto work = [&] {
+        const Stop stop{next, count};
         wound::RungOptions alone = options;
         alone.threads = 1;
         alone.progress = {};

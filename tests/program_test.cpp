@@ -313,6 +313,23 @@ TEST_F(Program, RefusesFilmsItCannotMake)
         EXPECT_THAT(name, testing::Not(testing::EndsWith(".mp4")));
 }
 
+// As Ctrl-C would, once the film is under way.
+TEST_F(Program, LeavesNothingHalfMadeWhenItIsStopped)
+{
+    const std::filesystem::path tools = folder_ / "tools", script = tools / "ffmpeg";
+    std::filesystem::create_directory(tools);
+    std::ofstream(script)
+        << "#!/bin/sh\nfor film; do :; done\nhead -c 1000 >\"$film\"\nkill -INT $PPID\ncat >/dev/null\n";
+    std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+    const Outcome stopped = capture({"--head", head_, "--video", file("film.mp4"), "--size", "64x64",
+                                     "--days", "0,30", "--duration", "60"},
+                                    {"PATH=" + tools.string() + ":/usr/bin:/bin"});
+    EXPECT_EQ(stopped.code, 130);
+    EXPECT_THAT(stopped.err, testing::EndsWith("cicatrix: stopped\n"));
+    for (const std::string& name : files_in(folder_.path()))
+        EXPECT_THAT(name, testing::Not(HasSubstr("film")));
+}
+
 TEST_F(Program, SaysSoWithoutAVulkanDevice)
 {
     expect_refusal(
