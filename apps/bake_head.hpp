@@ -10,8 +10,8 @@ namespace app {
 /// Goes up whenever the baked head changes; part of the cached file's name.
 constexpr int baked_head_version = 2;
 
-/// Where cicatrix-fetch-head puts the default head: cicatrix/head-vN.glb in XDG_CACHE_HOME, else in ~/.cache. It need not
-/// be there.
+/// Where cicatrix-fetch-head puts the default head: cicatrix/head-vN.glb in XDG_CACHE_HOME, else in ~/.cache.
+/// It need not be there.
 std::filesystem::path default_head_path();
 
 struct HeadSources

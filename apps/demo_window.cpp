@@ -97,7 +97,8 @@ void DemoWindow::step()
     finish_loading();
     if (window_.minimised())
         return;
-    for (const engine::KeyPress& key : window_.take_keys())
+    const engine::FrameKeys keys = window_.take_keys(ImGui::GetIO().WantTextInput);
+    for (const engine::KeyPress& key : keys.presses)
         press(state_, key, ImGui::GetIO().WantTextInput);
     for (const std::filesystem::path& file : window_.take_dropped())
         open(file);
@@ -107,7 +108,7 @@ void DemoWindow::step()
     tell_facts();
     if (recording_)
         record_picture(); // before the interface refers to the picture of it that is replaced
-    ui_->begin(swapchain_->ui());
+    ui_->begin(swapchain_->ui(), keys);
     draw_demo(state_);
     if (std::exchange(shown_dialog_, state_.dialog) != state_.dialog)
         fading_until_ = now + .25;

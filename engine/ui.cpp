@@ -103,7 +103,7 @@ Ui::Ui(Window& shown, double scale_wanted) : window(shown), forced_scale(scale_w
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     io.BackendRendererName = "cicatrix";
     ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
-    window.listen_to_keys(); // this version of ImGui misses a key that is pressed and released within a frame
+    window.listen_to_keys(); // this version of ImGui loses and mixes up keys that come within a frame
     set_scale(wanted_scale());
 }
 
@@ -143,10 +143,12 @@ void Ui::set_scale(float scale)
     }
 }
 
-void Ui::tell_keys()
+void Ui::tell_keys(const FrameKeys& keys)
 {
     ImGuiIO& io = ImGui::GetIO();
-    for (const KeyChange& change : window.take_key_changes())
+    for (const char32_t character : keys.text)
+        io.AddInputCharacter(character);
+    for (const KeyChange& change : keys.changes)
         if (std::size_t(change.key) < std::size(io.KeysDown))
             io.KeysDown[change.key] = change.down;
     const auto either = [&](int left, int right) { return io.KeysDown[left] || io.KeysDown[right]; };
@@ -167,9 +169,9 @@ void Ui::tell_mouse()
     std::ranges::copy(buttons, io.MouseDown);
 }
 
-void Ui::begin(UiRenderer& renderer)
+void Ui::begin(UiRenderer& renderer, const FrameKeys& keys)
 {
-    tell_keys();
+    tell_keys(keys);
     ImGui_ImplGlfw_NewFrame();
     tell_mouse();
     if (const float scale = wanted_scale(); scale != current_scale)

@@ -21,7 +21,7 @@ class Ui
     Ui& operator=(const Ui&) = delete;
 
     /// Follows the screen's scale, which changes when the window moves to another.
-    void begin(UiRenderer& renderer);
+    void begin(UiRenderer& renderer, const FrameKeys& keys);
     const ImDrawData* end();
     /// Whether the last end() returned something else than the one before.
     bool changed() const { return last_hash != hash; }
@@ -31,7 +31,7 @@ class Ui
     float scale() const { return current_scale; }
 
   private:
-    void tell_keys();
+    void tell_keys(const FrameKeys& keys);
     void tell_mouse();
     float wanted_scale() const;
     void set_scale(float scale);

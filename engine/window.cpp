@@ -195,30 +195,18 @@ bool Window::take_damaged()
 void Window::listen_to_keys()
 {
     glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
-        if (action != GLFW_REPEAT && key >= 0)
-            self(w).key_changes.push_back({key, action == GLFW_PRESS});
-        if (action == GLFW_RELEASE)
-            return;
+        using enum KeyEvent::Kind;
+        KeyEvent event{action == GLFW_PRESS ? Down : action == GLFW_REPEAT ? Repeat : Up, key};
         // A letter by what it writes, not by its place: Ctrl+Z is where the user's keyboard has its Z.
         const char* name = glfwGetKeyName(key, scancode);
-        if (name && name[0] >= 'a' && name[0] <= 'z' && name[1] == 0)
-            key = name[0] - 'a' + GLFW_KEY_A;
-        self(w).keys.push_back(
-            {key, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_ALT) != 0});
+        const bool letter = name && name[0] >= 'a' && name[0] <= 'z' && name[1] == 0;
+        event.press = {letter ? name[0] - 'a' + GLFW_KEY_A : key, (mods & GLFW_MOD_CONTROL) != 0,
+                       (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_ALT) != 0};
+        self(w).keyboard.add(event);
     });
-}
-
-std::vector<KeyChange> Window::take_key_changes()
-{
-    std::vector<KeyChange> taken;
-    for (const KeyChange& change : key_changes) {
-        const auto same = [&](const KeyChange& earlier) { return earlier.key == change.key && earlier.down; };
-        if (!change.down && std::ranges::any_of(taken, same))
-            break;
-        taken.push_back(change);
-    }
-    key_changes.erase(key_changes.begin(), key_changes.begin() + std::ptrdiff_t(taken.size()));
-    return taken;
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
+        self(w).keyboard.add({.kind = KeyEvent::Kind::Text, .text = character});
+    });
 }
 
 std::optional<ButtonChange> Window::take_button_change()
@@ -228,11 +216,6 @@ std::optional<ButtonChange> Window::take_button_change()
     const ButtonChange change = button_changes.front();
     button_changes.pop_front();
     return change;
-}
-
-std::vector<KeyPress> Window::take_keys()
-{
-    return std::exchange(keys, {});
 }
 
 std::vector<std::filesystem::path> Window::take_dropped()

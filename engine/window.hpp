@@ -5,6 +5,8 @@
 // A display that goes away while the window is open ends the process with one line: X11 leaves no way to go
 // on.
 #pragma once
+#include "engine/keyboard.hpp"
+
 #include <array>
 #include <deque>
 #include <filesystem>
@@ -17,19 +19,6 @@
 struct GLFWwindow;
 
 namespace engine {
-
-struct KeyPress
-{
-    int key = 0; // GLFW_KEY_..., a place on a US keyboard; of a letter, what it writes
-    bool control = false, shift = false, alt = false;
-};
-
-/// A key went down or up.
-struct KeyChange
-{
-    int key = 0; // GLFW_KEY_...
-    bool down = false;
-};
 
 /// A mouse button went down or up.
 struct ButtonChange
@@ -74,16 +63,13 @@ class Window
     /// Whether what the window shows must be drawn anew: its size changed, or another window no longer hides
     /// it. Asking clears it.
     bool take_damaged();
-    /// Keys pressed or repeated since the last call, in order. None is lost, however long a frame takes.
-    std::vector<KeyPress> take_keys();
-    /// The changes since the last call, up to the first key that would go up in the frame in which it went
-    /// down; what is left is for the next frame.
-    std::vector<KeyChange> take_key_changes();
+    /// What this frame is told of the keyboard (Keyboard::take); the rest is for the next ones.
+    FrameKeys take_keys(bool text_wanted) { return keyboard.take(text_wanted); }
     /// The next press or release of a mouse button, to be taken one a frame: on a slow device the pointer is
     /// elsewhere by the time of the frame that sees it.
     std::optional<ButtonChange> take_button_change();
     /// Whether there is something left to take.
-    bool has_input() const { return !key_changes.empty() || !button_changes.empty(); }
+    bool has_input() const { return !keyboard.empty() || !button_changes.empty(); }
     /// Receives keys again after somebody else has asked GLFW for them.
     void listen_to_keys();
     /// Files dropped on the window since the last call.
@@ -98,8 +84,7 @@ class Window
 
     GLFWwindow* window = nullptr;
     bool damaged = true;
-    std::vector<KeyPress> keys;
-    std::vector<KeyChange> key_changes;
+    Keyboard keyboard;
     std::deque<ButtonChange> button_changes;
     std::array<float, 2> pointer{}; // after the events so far
     std::vector<std::filesystem::path> dropped;
