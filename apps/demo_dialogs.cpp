@@ -172,18 +172,34 @@ void draw_area(DemoState& state)
     }
 }
 
+void draw_quit(DemoState& state)
+{
+    ImGui::TextUnformatted("The scene has edits that are not saved.");
+    ImGui::Spacing();
+    if (ImGui::Button("Save ...")) {
+        open_dialog(state, Dialog::SaveScene);
+        state.entries.quit_when_saved = true;
+    }
+    ImGui::SameLine();
+    state.wishes.quit |= ImGui::Button("Quit without saving"); // asked for again, it is granted
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel"))
+        state.dialog = Dialog::None;
+}
+
 struct DialogPage
 {
     Dialog which;
     const char* title;
     void (*draw)(DemoState&);
 };
-constexpr std::array<DialogPage, 7> pages{{{Dialog::Recording, "Recording", draw_recording},
+constexpr std::array<DialogPage, 8> pages{{{Dialog::Recording, "Recording", draw_recording},
                                            {Dialog::Open, "Open", draw_open},
                                            {Dialog::SaveScene, "Save scene", draw_save_scene},
                                            {Dialog::SavePicture, "Save picture", draw_save_picture},
                                            {Dialog::Film, "Record film", draw_film},
                                            {Dialog::Area, "Wound in the photo", draw_area},
+                                           {Dialog::Quit, "Quit", draw_quit},
                                            {Dialog::Help, "Mouse and keys", [](DemoState& state) {
                                                 draw_help(state);
                                                 if (ImGui::Button("Close"))
@@ -212,6 +228,7 @@ void open_dialog(DemoState& state, Dialog dialog)
 {
     state.dialog = dialog;
     state.entries.path = suggested_path(state, dialog);
+    state.entries.quit_when_saved = false;
     if (dialog == Dialog::SavePicture || dialog == Dialog::Film)
         state.entries.size = {int(state.scene.size[0]), int(state.scene.size[1])};
 }

@@ -98,6 +98,11 @@ void DemoWindow::match_comparison()
         settle_ = 2;
 }
 
+bool DemoWindow::unsaved() const
+{
+    return stage_ && as_seen_in(state_.scene, on_disk_) != on_disk_;
+}
+
 void DemoWindow::go_to(const Scene& scene)
 {
     state_.scene = as_seen_in(scene, state_.scene);
@@ -254,6 +259,7 @@ void DemoWindow::save_scene(std::filesystem::path file)
         app::save_scene(file, state_.scene);
         on_disk_ = state_.scene;
         state_.scene_file = file;
+        state_.wishes.quit = state_.entries.quit_when_saved;
         state_.notices.say(fmt::format("Saved {}", file.string()), now_s());
     });
 }

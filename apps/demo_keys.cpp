@@ -97,6 +97,8 @@ void press(DemoState& state, const engine::KeyPress& key, bool typing)
     if (state.dialog != Dialog::None) {
         if (state.dialog == Dialog::Recording)
             state.wishes.stop_film = key.key == GLFW_KEY_ESCAPE;
+        else if (key.key == GLFW_KEY_Q && key.control)
+            state.wishes.quit = true;
         else if (key.key == GLFW_KEY_ESCAPE || (key.key == GLFW_KEY_F1 && state.dialog == Dialog::Help))
             state.dialog = Dialog::None;
         return;

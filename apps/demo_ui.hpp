@@ -57,7 +57,8 @@ enum class Dialog : std::uint8_t
     Film,
     Recording, // of a film, under way
     Area,      // of the wound in a photograph
-    Help
+    Help,
+    Quit // with edits that are not saved
 };
 
 /// What only the stage knows and the interface shows.
@@ -117,6 +118,7 @@ struct DemoState
         Rectangle shown;                     // where the photograph is
         std::optional<cv::Rect2d> rectangle; // pixels of the photograph
         std::optional<std::size_t> wound;    // none: a new one
+        bool quit_when_saved = false;
     } entries;
     double recorded = 0;              // of a film, 0..1
     std::filesystem::path scene_file; // where it was read from or saved to

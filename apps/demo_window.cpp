@@ -55,18 +55,33 @@ DemoWindow::~DemoWindow()
 void DemoWindow::run()
 {
     last_step_ = now_s();
-    while (!window_.close_wanted() && !state_.wishes.quit) {
+    while (!may_close()) {
         const std::optional<double> wait = patience();
         if (!wait)
             tell_idle();
         if (state_.wishes.quit)
-            break;
+            continue;
         window_.wait(wait);
         settle_ = wait ? std::max(0, settle_ - 1) : 2;
         step();
     }
     fail_on_validation(renderer_->device);
     events_.tell("end");
+}
+
+bool DemoWindow::may_close()
+{
+    if (!window_.close_wanted() && !state_.wishes.quit)
+        return false;
+    if (!unsaved() || state_.dialog == Dialog::Quit)
+        return true;
+    window_.keep_open();
+    state_.wishes.stop_film = recording_.has_value();
+    state_.wishes.quit = recording_.has_value(); // asked again when the film is gone
+    if (!recording_)
+        open_dialog(state_, Dialog::Quit);
+    settle_ = 2;
+    return false;
 }
 
 std::optional<double> DemoWindow::patience() const

@@ -38,6 +38,7 @@ class DemoWindow
   private:
     // The loop.
     void step();
+    bool may_close();                       // when asked to; asks back
     std::optional<double> patience() const; // until the next step; none: until something happens
     void finish_loading();
     void tell_idle();
@@ -63,6 +64,7 @@ class DemoWindow
     void match_comparison();
     double compared_day(double day) const { return state_.compare == Compare::Day0 ? 0 : day; }
     Scene compared_scene() const;
+    bool unsaved() const; // edits, other than of the camera
     void grant_wishes();
     void grant_edits();
     std::optional<glm::dvec3> place_at(const glm::dvec2& at) const; // on the skin; 0..1 of the view

@@ -162,9 +162,9 @@ bool Window::close_wanted() const
     return glfwWindowShouldClose(window) == GLFW_TRUE;
 }
 
-void Window::close()
+void Window::keep_open()
 {
-    glfwSetWindowShouldClose(window, GLFW_TRUE);
+    glfwSetWindowShouldClose(window, GLFW_FALSE);
 }
 
 void Window::set_title(const std::string& title)

@@ -52,7 +52,7 @@ class Window
     /// Pixels per unit of text: 1 on ordinary screens, 2 on those with twice the density.
     float content_scale() const;
     bool close_wanted() const;
-    void close();
+    void keep_open(); // what was wanted is not
     void set_title(const std::string& title);
 
     /// Returns after at least one event; with `seconds`, at the latest then. 0: does not wait.

@@ -96,9 +96,14 @@ class DemoWindowTest : public testing::Test
         cv::inRange(difference, cv::Scalar(0, 0, 0), cv::Scalar(2, 2, 2), near);
         EXPECT_GT(cv::countNonZero(near), .995 * view.size().area());
     }
-    void quit(Demo& demo) const
+    /// `edits`: some are not saved, which is asked about and confirmed by asking again.
+    void quit(Demo& demo, bool edits = false) const
     {
         key("ctrl+q");
+        if (edits) {
+            demo.idle([](const json& now) { return now["dialog"] == 8; }, "the question");
+            key("ctrl+q");
+        }
         EXPECT_EQ(demo.process().wait(), 0) << demo.err();
         EXPECT_THAT(demo.err(), IsEmpty());
     }
@@ -205,7 +210,11 @@ TEST_F(DemoWindowTest, PutsMovesAndDeletesWoundsByMouse)
     demo.idle(wounds(1), "one wound again");
     key("ctrl+shift+z");
     demo.idle(wounds(2), "the second one again");
-    quit(demo);
+    key("ctrl+q");
+    demo.idle([](const json& now) { return now["dialog"] == 8; }, "the question");
+    key("Escape");
+    demo.idle([](const json& now) { return now["dialog"] == 0; }, "the scene, still there");
+    quit(demo, true);
 }
 
 TEST_F(DemoWindowTest, TurnsTheHeadAndFollowsItsWindowsSize)
@@ -288,7 +297,7 @@ TEST_F(DemoWindowTest, FollowsAPointerFasterThanItsFrames)
     idle = demo.idle([](const json& now) { return now["divider"] < .3; }, "the divider moved");
     EXPECT_NEAR(idle["divider"], .25, .01);
     EXPECT_NEAR(idle["wounds"][0]["at"][1], y - 50, 8) << "the head did not turn";
-    quit(demo);
+    quit(demo, true);
 }
 
 TEST_F(DemoWindowTest, TakesTheWoundInAnAreaOfAPhoto)
