@@ -16,6 +16,7 @@
 #include "apps/graph_command.hpp"
 #include "apps/info.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/predict.hpp"
 #include "apps/reflect.hpp"
 #include "apps/report.hpp"
 #include "apps/wound_commands.hpp"
@@ -75,6 +76,7 @@ int main(int argc, char** argv)
         app::add_fit_command(program);
         app::add_warps_command(program);
         app::add_segmentation_command(program);
+        app::add_predict_command(program);
         app::add_reflect_command(program);
         app::add_bake_command(program);
         add_bake_head_command(program);

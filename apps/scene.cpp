@@ -64,23 +64,6 @@ wound::Healing read_healing(const json& object, const std::string& where, const 
     return healing;
 }
 
-wound::SegmentationHints read_hints(const json& object, const std::string& where)
-{
-    constexpr double most = 1 << 20; // whether they lie in the photograph is seen when that is read
-    Fields fields(object, where);
-    wound::SegmentationHints hints;
-    if (fields.has("rect")) {
-        const auto rect = fields.numbers<4>("rect", {}, 0, most);
-        hints.rect = cv::Rect(int(rect[0]), int(rect[1]), int(rect[2]), int(rect[3]));
-    }
-    if (fields.has("seed")) {
-        const auto seed = fields.numbers<2>("seed", {}, 0, most);
-        hints.seed = cv::Point(int(seed[0]), int(seed[1]));
-    }
-    fields.finish();
-    return hints;
-}
-
 json hints_to_json(const wound::SegmentationHints& hints)
 {
     json object = json::object();
@@ -194,6 +177,23 @@ std::vector<double> read_days(const json& value, const std::string& where)
 }
 
 } // namespace
+
+wound::SegmentationHints read_hints(const json& object, const std::string& where)
+{
+    constexpr double most = 1 << 20; // whether they lie in the photograph is seen when that is read
+    Fields fields(object, where);
+    wound::SegmentationHints hints;
+    if (fields.has("rect")) {
+        const auto rect = fields.numbers<4>("rect", {}, 0, most);
+        hints.rect = cv::Rect(int(rect[0]), int(rect[1]), int(rect[2]), int(rect[3]));
+    }
+    if (fields.has("seed")) {
+        const auto seed = fields.numbers<2>("seed", {}, 0, most);
+        hints.seed = cv::Point(int(seed[0]), int(seed[1]));
+    }
+    fields.finish();
+    return hints;
+}
 
 passes::Shading corrected_shading()
 {

@@ -90,6 +90,10 @@ struct Scene
     bool operator==(const Scene&) const = default;
 };
 
+/// "segmentation": {"seed": [x, y], "rect": [x, y, w, h]}; messages begin with `where`. Throws
+/// cicatrix::InputError.
+wound::SegmentationHints read_hints(const nlohmann::json& object, const std::string& where);
+
 /// Reads a scene; files inside are relative to the scene's folder. Throws cicatrix::InputError naming file
 /// and field.
 Scene read_scene(const std::filesystem::path& path);

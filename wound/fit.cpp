@@ -241,19 +241,24 @@ std::vector<SeriesFit> fit_table(const std::vector<AreaSeries>& table, std::stri
     return fits;
 }
 
-H3 curve_from_areas(const std::filesystem::path& table, std::string_view series)
+SeriesFit fit_from_areas(const std::filesystem::path& table, std::string_view series)
 {
     const std::vector<SeriesFit> fits = fit_table(read_area_table(table), table.string());
     if (series.empty())
-        return fits.back().best().curve;
+        return fits.back();
     std::string names;
     for (const SeriesFit& fit : fits) {
         if (fit.series.name == series)
-            return fit.best().curve;
+            return fit;
         names += (names.empty() ? "" : ", ") + fit.series.name;
     }
     throw cicatrix::InputError(table.string(), fmt::format("has no series \"{}\"", series),
                                "name one of: " + names);
+}
+
+H3 curve_from_areas(const std::filesystem::path& table, std::string_view series)
+{
+    return fit_from_areas(table, series).best().curve;
 }
 
 Peak largest_ratio(const H3& curve)

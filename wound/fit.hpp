@@ -56,8 +56,10 @@ SeriesFit fit_series(const AreaSeries& series, std::string_view where, const Fit
 std::vector<SeriesFit> fit_table(const std::vector<AreaSeries>& table, std::string_view where,
                                  const FitOptions& options = {});
 
-/// The preferred curve of a table's mean (or of its only wound), or of the series named: what a scene's
-/// "areas" file stands for. Throws cicatrix::InputError when there is no series of that name.
+/// A table's mean (or its only wound), or the series named. Throws cicatrix::InputError when there is no
+/// series of that name.
+SeriesFit fit_from_areas(const std::filesystem::path& table, std::string_view series = {});
+/// Its preferred curve: what a scene's "areas" file stands for.
 H3 curve_from_areas(const std::filesystem::path& table, std::string_view series = {});
 
 /// The largest ratio of the curve, infinite for one that never stops growing, and the day on which it is

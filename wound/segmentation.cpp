@@ -247,9 +247,9 @@ cv::Rect picture_bounds(const cv::Mat3b& srgb)
 
 [[noreturn]] void no_wound(std::string_view where, std::string_view why)
 {
-    throw cicatrix::InputError(where, fmt::format("no wound found: {}", why),
-                               "give a seed inside it or a rectangle around it (--seed, --rect; "
-                               "\"segmentation\" in a scene), or a mask");
+    throw NoWound(where, fmt::format("no wound found: {}", why),
+                  "give a seed inside it or a rectangle around it (--seed, --rect; "
+                  "\"segmentation\" in a scene), or a mask");
 }
 
 } // namespace

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "wound/input_error.hpp"
+
 namespace wound {
 
 struct SegmentationHints
@@ -18,10 +20,16 @@ struct SegmentationHints
     bool operator==(const SegmentationHints&) const = default;
 };
 
+/// There is no wound to be seen.
+struct NoWound : cicatrix::InputError
+{
+    using InputError::InputError;
+};
+
 /// 255 in the wound, of the photograph's size. `srgb` in RGB order; near-black surroundings of a cropped
 /// picture count as no part of it. Works at up to 400 pixels a side (of the rectangle and its surroundings
 /// when there is one) and maps the result back. Deterministic. Throws cicatrix::InputError (`where` names the
-/// photograph) for a photograph with no wound in it, too small a one, or hints outside it.
+/// photograph) for too small a photograph or hints outside it, NoWound for one with no wound in it.
 cv::Mat1b segment(const cv::Mat3b& srgb, const SegmentationHints& hints, std::string_view where);
 
 /// 255 where there is a picture: all but near-black pixels joined to its edge (circular crops, letter boxes).
