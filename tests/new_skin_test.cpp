@@ -1,5 +1,6 @@
 // New epithelium and scar in the picture: their colour against the tissue's optics, and no jump when the
 // wound closes.
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -154,4 +155,31 @@ TEST_F(NewSkin, ClosureIsNoJumpInAnyPixel)
         before = now;
     }
     EXPECT_GT(around, .005);
+}
+
+// Half floats hide a small jump in a pixel, but not in the mean over a zone.
+TEST_F(NewSkin, ClosureIsNoJumpInTheMeanOfAnyZone)
+{
+    constexpr double instant = 1e-3; // days
+    Wall wall;
+    const double closed = closure_day(Healing{}.curve);
+    const std::array days{closed - 1, closed - instant, closed + instant, closed + 1};
+    std::array<cv::Mat3f, days.size()> seen;
+    for (std::size_t i = 0; i < days.size(); ++i)
+        seen[i] = wall.draw(days[i]).radiance;
+    std::vector<cv::Mat1f> state; // 2: coverage of the bed, 3: of what is inside the border
+    cv::split(wall.draw(closed).state, state);
+    const std::array zones{std::pair("rim", cv::Mat1b(state[3] < .01)),
+                           std::pair("ring", cv::Mat1b((state[3] > .99) & (state[2] < .01))),
+                           std::pair("bed", cv::Mat1b(state[2] > .9))};
+    for (const auto& [name, zone] : zones) {
+        ASSERT_GT(cv::countNonZero(zone), 100) << name;
+        const auto change = [&](std::size_t from, std::size_t to) {
+            return cv::norm(cv::mean(seen[to] - seen[from], zone), cv::NORM_INF);
+        };
+        // Twice the instant is a five-hundredth of a day: ten times that day's share of the change around is
+        // allowed.
+        EXPECT_LE(change(1, 2), 10 * 2 * instant * std::max(change(0, 1), change(2, 3))) << name;
+        EXPECT_GT(std::max(change(0, 1), change(2, 3)), 1e-3) << name << ": something still heals";
+    }
 }

@@ -215,6 +215,51 @@ TEST(Prepare, TheLastOfTheBedFadesAfterClosure)
     EXPECT_LT(steepest, .5);
 }
 
+/// Every number that a frame is drawn from.
+std::vector<std::pair<std::string, double>> numbers_of(const wound::WoundDay& day)
+{
+    return {{"unhealed ratio", day.unhealed_ratio},
+            {"border ratio", day.border_ratio},
+            {"recovery ratio", day.recovery_ratio},
+            {"bed recovery", day.bed_recovery},
+            {"border recovery", day.border_recovery},
+            {"border softness", day.border_softness},
+            {"depth scale", day.depth_scale},
+            {"clot", day.phase.clot},
+            {"fibrin", day.phase.fibrin},
+            {"granulation", day.phase.granulation},
+            {"rim", day.phase.rim},
+            {"bed presence", day.bed_presence},
+            {"redness", day.scar.redness},
+            {"pigmentation", day.scar.pigmentation},
+            {"height", day.scar.height_mm},
+            {"sheen", day.scar.sheen},
+            {"pore loss", day.scar.pore_loss},
+            {"border scale", day.border_warp.scale},
+            {"bed scale", day.bed_warp.scale}};
+}
+
+TEST(Prepare, NoNumberOfADayJumpsAtClosure)
+{
+    const auto wound = wound::prepare(photograph({260, 220}, {120, 110}, bean), small_patch());
+    for (const auto model : {wound::HealingModel::face, wound::HealingModel::contraction}) {
+        wound::Healing healing;
+        healing.model = model;
+        const double closed = wound::closure_day(healing.curve), instant = 1e-6;
+        const auto at = [&](double day) {
+            return numbers_of(wound::wound_at(wound, healing, day, wound::WarpRung::radial));
+        };
+        const auto eve = at(closed - 1), before = at(closed - instant), after = at(closed + instant),
+                   morrow = at(closed + 1);
+        for (std::size_t i = 0; i < eve.size(); ++i) {
+            const double a_day = std::max(std::abs(before[i].second - eve[i].second),
+                                          std::abs(morrow[i].second - after[i].second));
+            EXPECT_LE(std::abs(after[i].second - before[i].second), 100 * 2 * instant * a_day + 1e-12)
+                << eve[i].first << (model == wound::HealingModel::face ? ", face" : ", contraction");
+        }
+    }
+}
+
 TEST(Prepare, BadWidthsAndEmptyPhotographsAreRefused)
 {
     auto preparation = small_patch();
