@@ -136,7 +136,7 @@ void add_bake_command(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "bake", "Write the reflectance table and the colour over days; compare the models");
     auto options = std::make_shared<BakeOptions>();
-    auto comparing = std::make_shared<bool>(false);
+    auto comparing = std::make_shared<bool>(false), calibrating = std::make_shared<bool>(false);
     command->add_option("--tissue", options->tissue, "table1, light, medium, dark or a tissue file")
         ->capture_default_str();
     command->add_option_function<std::string>(
@@ -144,7 +144,7 @@ void add_bake_command(CLI::App& app)
         "Reflectance model (default adding-doubling)");
     command->add_option_function<std::string>(
         "--size", [options](const std::string& text) { read_size(text, *options); },
-        "Texels over depth x days (default 32x32)");
+        "Texels over depth x days (default 64x64)");
     command->add_option("--last-day", options->last_day, "Last day of the table")
         ->check(CLI::Range(1.0, 3650.0))
         ->capture_default_str();
@@ -153,9 +153,17 @@ void add_bake_command(CLI::App& app)
         ->check(CLI::Range(100.0, 1e10))
         ->capture_default_str();
     command->add_flag("--compare", *comparing, "Measure every model against the photon walk");
+    command->add_flag("--calibrate", *calibrating, "Fit the model 'calibrated' to the photon walk")
+        ->excludes("--compare");
     command->footer("Example: cicatrix bake --tissue dark --out out/bake");
-    command->callback(
-        [options, comparing] { *comparing ? compare(*options, std::cout) : bake(*options, std::cout); });
+    command->callback([options, comparing, calibrating] {
+        if (*calibrating)
+            calibrate(*options, std::cout);
+        else if (*comparing)
+            compare(*options, std::cout);
+        else
+            bake(*options, std::cout);
+    });
 }
 
 } // namespace app

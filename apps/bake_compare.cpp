@@ -1,5 +1,6 @@
-// Every rung of the ladder against the photon walk: error, cost, the table's size and the calibrated rung's
-// held-out error.
+// Every rung of the ladder against the photon walk: error and cost; the table's size; the presets against the
+// skin they stand for.
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <fmt/ostream.h>
@@ -9,6 +10,7 @@
 #include "apps/bake.hpp"
 #include "apps/bake_pictures.hpp"
 #include "apps/output.hpp"
+#include "apps/progress.hpp"
 #include "engine/image_io.hpp"
 #include "passes/reflectance_table.hpp"
 #include "wound/input_error.hpp"
@@ -28,6 +30,11 @@ double seconds_since(std::chrono::steady_clock::time_point start)
 ordered_json list(const Color& color)
 {
     return {color[0], color[1], color[2]};
+}
+
+ordered_json list(const Lab& lab)
+{
+    return {lab.l, lab.a, lab.b};
 }
 
 double rms(const Color& difference)
@@ -58,39 +65,15 @@ std::vector<std::pair<std::string, SkinLayers>> compared_stacks()
             {"scar, 1 month", *tissue_preset("scar")}};
 }
 
-// Stacks like skin, wounded or not; the calibrated rung was fitted on those with an even number.
-std::vector<Stack> calibration_stacks()
-{
-    std::mt19937 random(5);
-    const auto uniform = [&](double low, double high) {
-        return std::uniform_real_distribution(low, high)(random);
-    };
-    const auto logarithmic = [&](double low, double high) {
-        return std::exp(uniform(std::log(low), std::log(high)));
-    };
-    std::vector<Stack> stacks;
-    for (int i = 0; i < 96; ++i) {
-        Stack stack;
-        const bool epidermis = i % 4 != 3, bloody = i % 4 == 2;
-        if (epidermis)
-            stack.layers.push_back({logarithmic(.02, 8), uniform(3, 14), uniform(.2, .85), uniform(1.38, 1.5),
-                                    logarithmic(.03, .25)});
-        stack.layers.push_back(
-            {logarithmic(.005, bloody ? 20 : 2), uniform(1.5, 9), uniform(.7, .85), 1.4, logarithmic(.3, 4)});
-        stack.layers.push_back(
-            {logarithmic(.01, 2), uniform(1.5, 7), uniform(.7, .85), uniform(1.38, 1.46), logarithmic(1, 9)});
-        stack.n_below = stack.layers.back().n;
-        stacks.push_back(stack);
-    }
-    return stacks;
-}
-
 } // namespace
 
-std::vector<MeasuredStack> measure_ladder(const RungOptions& options)
+std::vector<MeasuredStack> measure_ladder(const RungOptions& options, Progress& progress)
 {
     std::vector<MeasuredStack> result;
-    for (const auto& [stack_name, tissue] : compared_stacks()) {
+    const auto stacks = compared_stacks();
+    progress.expect(stacks.size());
+    for (const auto& [stack_name, tissue] : stacks) {
+        progress.show(stack_name);
         RungOptions walk = options; // `photons` are for the colour: a spectrum's channels share them
         walk.photons = std::max<std::uint64_t>(1000, options.photons * 3 / tissue.channels());
         const Measured reference = measure(tissue, Rung::MonteCarlo, walk);
@@ -102,6 +85,7 @@ std::vector<MeasuredStack> measure_ladder(const RungOptions& options)
             stack.rungs.push_back(m);
         }
         result.push_back(std::move(stack));
+        progress.step();
     }
     return result;
 }
@@ -166,24 +150,36 @@ constexpr shared::uint walked_places = 24;
 
 } // namespace
 
-ordered_json measure_table_sizes(const BakeOptions& options)
+ordered_json measure_table_sizes(const BakeOptions& options, std::span<const std::uint32_t> wanted,
+                                 Progress& progress)
 {
-    const HealingTissue tissue = healing_tissue_or_file(options.tissue);
-    const shared::LutAxes axes = passes::lut_rows(tissue, Healing{}, 2, options.last_day).axes;
-    const std::vector<Place> places = random_places(11, 1000, axes),
-                             walked = random_places(12, walked_places, axes);
-    const std::vector<Color> direct = direct_colors(tissue, places, Rung::Calibrated, {}),
-                             walk = direct_colors(tissue, walked, Rung::MonteCarlo, options.rung_options);
     ordered_json sizes = ordered_json::array();
-    for (std::uint32_t size = 8; size <= 256; size *= 2) {
-        const cv::Mat3f table = passes::bake_reflectance_table(
-            passes::lut_rows(tissue, Healing{}, size, options.last_day).days, size, Rung::Calibrated);
-        const TableError interpolation = table_error(table, axes, places, direct),
-                         whole = table_error(table, axes, walked, walk);
-        sizes.push_back({{"size", size},
-                         {"rms", interpolation.rms},
-                         {"worst", interpolation.worst},
-                         {"rms_to_walk", whole.rms}});
+    for (const std::uint32_t size : wanted)
+        sizes.push_back({{"size", size}});
+    std::vector<std::string> tissues{"light", "medium", "dark", "table1"};
+    if (std::ranges::find(tissues, options.tissue) == tissues.end())
+        tissues.push_back(options.tissue);
+    progress.expect(tissues.size() * sizes.size());
+    for (const std::string& tissue_name : tissues) {
+        const HealingTissue tissue = healing_tissue_or_file(tissue_name);
+        const shared::LutAxes axes = passes::lut_rows(tissue, Healing{}, 2, options.last_day).axes;
+        const std::vector<Place> places = random_places(11, 1000, axes);
+        const std::vector<Color> direct = direct_colors(tissue, places, Rung::Calibrated, {});
+        const bool walks = tissue_name == options.tissue;
+        const std::vector<Place> walked = random_places(12, walks ? walked_places : 0, axes);
+        progress.show("table of " + tissue_name);
+        const std::vector<Color> walk = direct_colors(tissue, walked, Rung::MonteCarlo, options.rung_options);
+        for (ordered_json& entry : sizes) {
+            progress.show("table of " + tissue_name);
+            const auto size = entry["size"].get<std::uint32_t>();
+            const cv::Mat3f table = passes::bake_reflectance_table(
+                passes::lut_rows(tissue, Healing{}, size, options.last_day).days, size, Rung::Calibrated);
+            const TableError interpolation = table_error(table, axes, places, direct);
+            entry[tissue_name] = {{"rms", interpolation.rms}, {"worst", interpolation.worst}};
+            if (walks)
+                entry[tissue_name]["rms_to_walk"] = table_error(table, axes, walked, walk).rms;
+            progress.step();
+        }
     }
     return sizes;
 }
@@ -200,22 +196,32 @@ ordered_json measure_table_against_walk(const BakeOptions& options)
             {"points", walked_places},     {"rms", error.rms},       {"worst", error.worst}};
 }
 
-ordered_json measure_calibration()
+/// Colour of a skin preset beside the skin it was fitted to, by rung, and what the three-wavelength shortcut
+/// costs.
+ordered_json measure_presets()
 {
-    const std::vector<Stack> stacks = calibration_stacks();
-    ordered_json result;
-    for (Rung rung : {Rung::TwoStream, Rung::Calibrated}) {
-        double sum[2] = {};
-        for (std::size_t i = 0; i < stacks.size(); ++i) {
-            const double truth = reflectance(stacks[i], Rung::AddingDoubling).r_without_specular;
-            const double error = reflectance(stacks[i], rung).r_without_specular - truth;
-            sum[i % 2] += error * error;
+    ordered_json presets = ordered_json::array();
+    for (const MeasuredSkin& measured : measured_skins()) {
+        const SkinLayers skin = *tissue_preset(measured.preset);
+        ordered_json entry{{"preset", measured.preset},
+                           {"site", measured.site},
+                           {"source", measured.source},
+                           {"measured_lab", list(measured.lab)}};
+        for (const Rung rung : {Rung::AddingDoubling, Rung::Calibrated}) {
+            const std::vector<double> channels = diffuse_color(skin, rung);
+            Spectrum spectrum{};
+            std::ranges::copy(channels, spectrum.begin());
+            const Lab lab = lab_10_degrees(spectrum);
+            entry[std::string(name(rung))] = {{"lab", list(lab)},
+                                              {"delta_e2000", delta_e2000(lab, measured.lab)}};
+            const Color shortcut(spectrum[21], spectrum[14], spectrum[5]); // 610, 540, 450 nm
+            if (rung == Rung::AddingDoubling)
+                entry["three_wavelengths_delta_e2000"] =
+                    delta_e2000(lab_from_linear(shortcut), lab_from_linear(linear_rgb(spectrum)));
         }
-        const double half = static_cast<double>(stacks.size()) / 2;
-        result[std::string(name(rung))] = {{"fitted_rms", std::sqrt(sum[0] / half)},
-                                           {"held_out_rms", std::sqrt(sum[1] / half)}};
+        presets.push_back(std::move(entry));
     }
-    return result;
+    return presets;
 }
 
 namespace {
@@ -247,6 +253,36 @@ void print_ladder(const std::vector<MeasuredStack>& ladder, std::ostream& out)
     }
 }
 
+void print_presets(const ordered_json& presets, std::ostream& out)
+{
+    fmt::print(out, "{:8} {:20} {:>16} {:>16} {:>7} {:>11} {:>18}\n", "preset", "measured at", "L* a* b*",
+               "adding-doubling", "dE2000", "calibrated", "three wavelengths");
+    const auto lab = [](const ordered_json& list) {
+        return fmt::format("{:.1f} {:.1f} {:.1f}", list[0].get<double>(), list[1].get<double>(),
+                           list[2].get<double>());
+    };
+    for (const ordered_json& p : presets)
+        fmt::print(out, "{:8} {:20} {:>16} {:>16} {:7.2f} {:11.2f} {:18.2f}\n",
+                   p["preset"].get<std::string>(), p["site"].get<std::string>(), lab(p["measured_lab"]),
+                   lab(p["adding-doubling"]["lab"]), p["adding-doubling"]["delta_e2000"].get<double>(),
+                   p["calibrated"]["delta_e2000"].get<double>(),
+                   p["three_wavelengths_delta_e2000"].get<double>());
+}
+
+void print_table_sizes(const ordered_json& sizes, std::ostream& out)
+{
+    for (const ordered_json& entry : sizes) {
+        const int size = entry["size"].get<int>();
+        for (const auto& [tissue, error] : entry.items())
+            if (tissue != "size")
+                fmt::print(out, "table {0} x {0}, {1}: interpolation rms {2:.5f}, worst {3:.5f}{4}\n", size,
+                           tissue, error["rms"].get<double>(), error["worst"].get<double>(),
+                           error.contains("rms_to_walk") ? fmt::format("; against the photon walk rms {:.4f}",
+                                                                       error["rms_to_walk"].get<double>())
+                                                         : "");
+    }
+}
+
 // One point for each rung: error over all stacks against mean cost. The reference has no error to show.
 std::vector<PlotPoint> frontier(const std::vector<MeasuredStack>& ladder)
 {
@@ -268,29 +304,28 @@ std::vector<PlotPoint> frontier(const std::vector<MeasuredStack>& ladder)
 
 void compare(const BakeOptions& options, std::ostream& out)
 {
+    healing_tissue_or_file(options.tissue); // lest a misspelt one be found minutes later
     make_folder(options.out);
-    const std::vector<MeasuredStack> ladder = measure_ladder(options.rung_options);
+    Progress progress;
+    const std::vector<MeasuredStack> ladder = measure_ladder(options.rung_options, progress);
+    progress.clear();
     print_ladder(ladder, out);
     const std::vector<PlotPoint> points = frontier(ladder);
     for (const PlotPoint& point : points)
         fmt::print(out, "{:17} rms {:.4f} over all stacks at {:.2f} us per channel\n", point.name, point.y,
                    point.x);
-    ordered_json json;
-    json["photons"] = options.rung_options.photons;
-    json["stacks"] = ladder_json(ladder);
-    json["calibration"] = measure_calibration();
-    json["table_sizes"] = measure_table_sizes(options);
-    json["table_against_walk"] = measure_table_against_walk(options);
-    fmt::print(out, "calibration: {}\n", json["calibration"].dump());
-    for (const auto& size : json["table_sizes"])
-        fmt::print(out,
-                   "table {0} x {0}: interpolation rms {1:.5f}, worst {2:.5f}; against the photon walk rms "
-                   "{3:.4f}\n",
-                   size["size"].get<int>(), size["rms"].get<double>(), size["worst"].get<double>(),
-                   size["rms_to_walk"].get<double>());
-    fmt::print(out, "table against the photon walk: {}\n", json["table_against_walk"].dump());
     engine::write_png(options.out / "compare.png",
                       draw_plot(points, "cost per channel, microseconds", "rms error against Monte Carlo"));
+    ordered_json json{{"photons", options.rung_options.photons},
+                      {"stacks", ladder_json(ladder)},
+                      {"presets", measure_presets()}};
+    print_presets(json["presets"], out);
+    json["table_sizes"] =
+        measure_table_sizes(options, std::array<std::uint32_t, 6>{8, 16, 32, 64, 128, 256}, progress);
+    progress.clear();
+    print_table_sizes(json["table_sizes"], out);
+    json["table_against_walk"] = measure_table_against_walk(options);
+    fmt::print(out, "table against the photon walk: {}\n", json["table_against_walk"].dump());
     write_json(options.out / "compare.json", json);
 }
 

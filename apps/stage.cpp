@@ -18,8 +18,9 @@
 namespace app {
 namespace {
 
-constexpr std::size_t table_rows =
-    32; // as wide as high: the smallest table within .002 of direct evaluation (docs/optics.md)
+// A part is as wide as high: the smallest table of every preset within .002 of direct evaluation
+// (docs/optics.md).
+constexpr std::size_t table_rows = 64;
 
 const wound::RungOptions scene_rung_options{.angles = 4, .photons = 2000}; // photons: per wavelength
 

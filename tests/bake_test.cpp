@@ -7,9 +7,11 @@
 
 #include "apps/bake.hpp"
 #include "apps/output.hpp"
+#include "apps/progress.hpp"
 #include "apps/reflect.hpp"
 #include "passes/reflectance_table.hpp"
 #include "tests/gpu.hpp"
+#include "tests/temporary_folder.hpp"
 #include "wound/input_error.hpp"
 
 namespace {
@@ -180,11 +182,30 @@ TEST_F(Commands, MistakesAreNamed)
     EXPECT_THROW(app::make_folder(path / "file" / "below"), cicatrix::InputError);
 }
 
-TEST(Compare, LadderOrdersTheRungsAsTheDocumentsSay)
+TEST(Calibrate, FindsWhatIsBuiltIn)
 {
-    const nlohmann::ordered_json calibration = app::measure_calibration();
-    const double eddington = calibration.at("two-stream").at("held_out_rms"),
-                 fitted = calibration.at("calibrated").at("held_out_rms");
-    EXPECT_LT(eddington, .03);
-    EXPECT_LT(fitted, .012);
+    const TemporaryFolder folder;
+    app::BakeOptions options;
+    options.out = folder.path();
+    options.rung_options.photons = 4000;
+    std::ostringstream out;
+    const nlohmann::ordered_json json = app::calibrate(options, out);
+    const auto error = [&](const char* rung, const char* which) {
+        return json.at(rung).at(which).get<double>();
+    };
+    EXPECT_LE(error("fit", "fitted_rms"), error("calibrated", "fitted_rms"));
+    EXPECT_NEAR(error("fit", "fitted_rms"), error("calibrated", "fitted_rms"), .001);
+    EXPECT_NEAR(error("fit", "held_out_rms"), error("calibrated", "held_out_rms"), .002);
+    EXPECT_LT(error("calibrated", "held_out_rms"), .7 * error("two-stream", "held_out_rms"));
+}
+
+TEST(Tables, OfEveryPresetInterpolateWithinThePromisedError)
+{
+    app::Progress silent(false);
+    app::BakeOptions options;
+    options.rung_options.photons = 100;
+    const std::array<std::uint32_t, 1> sizes{options.width};
+    const nlohmann::ordered_json errors = app::measure_table_sizes(options, sizes, silent);
+    for (const char* tissue : {"light", "medium", "dark", "table1"})
+        EXPECT_LE(errors.at(0).at(tissue).at("rms").get<double>(), .002) << tissue;
 }

@@ -86,11 +86,9 @@ TEST(Chromophores, BloodAbsorbsAsTabulated)
 
 TEST(Chromophores, SkinPresetsLandOnMeasuredSkin)
 {
-    // CIELAB D65/10: cheek of Caucasians (Xiao et al. 2017), Indian upper arm and African forearm (Alaluf et
-    // al. 2002).
-    EXPECT_LT(delta_e2000(measured_like("light"), {59.6, 11.8, 14.6}), 1.0);
-    EXPECT_LT(delta_e2000(measured_like("medium"), {53.7, 10.3, 17.9}), 1.0);
-    EXPECT_LT(delta_e2000(measured_like("dark"), {38.14, 12.66, 15.04}), 2.3);
+    for (const MeasuredSkin& skin : measured_skins())
+        EXPECT_LT(delta_e2000(measured_like(skin.preset), skin.lab), skin.preset == "dark" ? 2.3 : 1.0)
+            << skin.preset;
 }
 
 TEST(Chromophores, GranulationTissueIsRedAndTable1IsNot)

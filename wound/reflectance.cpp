@@ -85,15 +85,14 @@ Element interface_element(double n_above, double n_below, DiffuseFresnel form)
     return {.r_top = down, .r_bottom = up, .t_down = 1 - down, .t_up = 1 - up};
 }
 
-Element layer_element(const LayerOptics& layer, Rung rung)
+Element layer_element(const LayerOptics& layer, Rung rung, const std::array<double, 4>& c)
 {
     const double a = layer.sigma_a, s = layer.sigma_s_reduced, d = layer.thickness_mm;
     if (rung == Rung::TwoStreamPaper)
         return slab(s * backward_fraction(layer.g), a, d);
     if (rung == Rung::Calibrated) {
         // Fitted to the photon walk on 48 stacks like skin; its error on 48 others is in docs/optics.md.
-        constexpr double c1 = .6433, c2 = 2.2131, c3 = 1.9179, c4 = .7631;
-        return a + s > 0 ? slab(c1 * s * (s / (s + c2 * a)), a * (c3 - c4 * (a / (a + s))), d)
+        return a + s > 0 ? slab(c[0] * s * (s / (s + c[1] * a)), a * (c[2] - c[3] * (a / (a + s))), d)
                          : slab(0, 0, d);
     }
     // Eddington's S turns negative where absorption rules; there nothing scatters back.
@@ -101,16 +100,16 @@ Element layer_element(const LayerOptics& layer, Rung rung)
 }
 
 // boundary, layer, boundary, layer, ... boundary, from the top down; layer i is element 2 i + 1.
-std::vector<Element> elements(const Stack& stack, Rung rung, double specular, DiffuseFresnel form)
+std::vector<Element> elements(const Stack& stack, Rung rung, double specular, const RungOptions& options)
 {
     std::vector<Element> result;
     double above = stack.n_above;
     for (const LayerOptics& layer : stack.layers) {
-        result.push_back(interface_element(above, layer.n, form));
-        result.push_back(layer_element(layer, rung));
+        result.push_back(interface_element(above, layer.n, options.fresnel));
+        result.push_back(layer_element(layer, rung, options.calibration));
         above = layer.n;
     }
-    result.push_back(interface_element(above, stack.n_below, form));
+    result.push_back(interface_element(above, stack.n_below, options.fresnel));
     result.front().r_top = specular;
     result.front().t_down = 1 - specular;
     return result;
@@ -123,9 +122,9 @@ double round_trip_loss(const Element& upper, const Element& lower)
     return std::max({1 - upper.r_bottom * lower.r_top, upper.t_up, lower.t_down, 1e-300});
 }
 
-Response two_stream(const Stack& stack, Rung rung, double specular, DiffuseFresnel form)
+Response two_stream(const Stack& stack, Rung rung, double specular, const RungOptions& options)
 {
-    const std::vector<Element> list = elements(stack, rung, specular, form);
+    const std::vector<Element> list = elements(stack, rung, specular, options);
     std::vector<Element> rest(list.size() + 1); // element i and all that lies under it
     for (std::size_t i = list.size(); i-- > 0;)
         rest[i] = over(list[i], rest[i + 1]);
@@ -208,7 +207,7 @@ Response reflectance(const Stack& stack, Rung rung, const RungOptions& options)
     case Rung::TwoStream:
     case Rung::TwoStreamPaper:
     case Rung::Calibrated:
-        return two_stream(stack, rung, specular_reflectance(stack, options), options.fresnel);
+        return two_stream(stack, rung, specular_reflectance(stack, options), options);
     default:
         return paper_response(stack, rung, specular_reflectance(stack, options), options.fresnel);
     }

@@ -1,6 +1,7 @@
 // How much light layered tissue gives back: the ladder of models, from the printed equations to a photon
 // walk, behind one interface. All take layers at one wavelength; equations are numbered as in docs/optics.md.
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -51,9 +52,12 @@ struct RungOptions
     DiffuseFresnel fresnel = DiffuseFresnel::Exact; // analytic rungs
     int angles = 8;                                 // adding-doubling, per panel
     Quadrature quadrature = Quadrature::Smooth;     // adding-doubling
-    std::uint64_t photons = 1'000'000, seed = 1;    // Monte Carlo
-    unsigned threads = 0;                           // Monte Carlo; 0: one per core
-    std::function<void(double)> progress = {};      // the finished share, by one thread at a time
+    /// calibrated: S = c0 s^2 / (s + c1 a), K = a (c2 - c3 a / (a + s)) with a = sigma_a, s = sigma_s'. What
+    /// `cicatrix bake --calibrate` found; shaders/lib/reflectance.glsl has the same. All >= 0, c2 >= c3.
+    std::array<double, 4> calibration{.6433, 2.2131, 1.9179, .7631};
+    std::uint64_t photons = 1'000'000, seed = 1; // Monte Carlo
+    unsigned threads = 0;                        // Monte Carlo; 0: one per core
+    std::function<void(double)> progress = {};   // the finished share, by one thread at a time
 };
 
 struct Response

@@ -193,6 +193,15 @@ SkinLayers bruise(const ChromophoreSkin& skin, double day)
     return result;
 }
 
+std::span<const MeasuredSkin> measured_skins()
+{
+    static constexpr std::array<MeasuredSkin, 3> skins{
+        {{"light", "cheek, Caucasians", "Xiao et al. 2017", {59.6, 11.8, 14.6}},
+         {"medium", "upper arm, Indian", "Alaluf et al. 2002", {53.7, 10.3, 17.9}},
+         {"dark", "forearm, African", "Alaluf et al. 2002", {38.14, 12.66, 15.04}}}};
+    return skins;
+}
+
 std::optional<HealingTissue> healing_tissue_named(std::string_view name)
 {
     if (name == "table1")

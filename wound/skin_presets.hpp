@@ -2,11 +2,13 @@
 // scar, bruise. Every number's source, and what was chosen by eye, is in docs/optics.md, section 6.
 #pragma once
 #include <optional>
+#include <span>
 #include <string_view>
 #include <variant>
 #include <vector>
 
 #include "wound/chromophores.hpp"
+#include "wound/color.hpp"
 #include "wound/healing_tissue.hpp"
 
 namespace wound {
@@ -39,6 +41,15 @@ TissueDay covered_bed(const HealingTissue& tissue, double day, double closure_da
 
 /// Haemorrhage under uninjured skin: blue-red, then yellow with bilirubin, gone after about three weeks.
 SkinLayers bruise(const ChromophoreSkin& skin, double day);
+
+/// Skin as a spectrophotometer saw it, specular light excluded.
+struct MeasuredSkin
+{
+    std::string_view preset; // fitted to it
+    std::string_view site, source;
+    Lab lab; // D65, 10 degrees
+};
+std::span<const MeasuredSkin> measured_skins();
 
 /// "table1", "light", "medium", "dark": skin that can heal.
 std::optional<HealingTissue> healing_tissue_named(std::string_view name);
