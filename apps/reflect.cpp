@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "wound/input_error.hpp"
+#include "wound/shading.hpp"
 #include "wound/skin_presets.hpp"
 #include "wound/tissue_file.hpp"
 
@@ -129,7 +130,7 @@ void add_reflect_command(CLI::App& app)
     CLI::App* command =
         app.add_subcommand("reflect", "What layered tissue reflects, transmits and absorbs, as JSON");
     auto options = std::make_shared<ReflectOptions>();
-    auto check = std::make_shared<bool>(false);
+    auto check = std::make_shared<bool>(false), ward = std::make_shared<bool>(false);
     command->add_option(
         "tissue", options->tissue,
         "Tissue file (JSON), or a preset: table1, light, medium, dark, granulation, scar, ...");
@@ -140,10 +141,17 @@ void add_reflect_command(CLI::App& app)
     add_light_options(*command, *options);
     command->add_flag("--check", *check,
                       "Compare monte-carlo and adding-doubling with published values and each other");
+    command->add_flag(
+        "--ward", *ward,
+        "Print the share of light that the three forms of Ward's gloss return, by slope and incidence");
     command->footer("Example: cicatrix reflect tissue.json --model adding-doubling\ntissue.json: {\"unit\": "
                     "\"1/mm\", \"layers\": [{\"name\": \"dermis\", \"sigma_a\": [0.1, 0.3, 0.4], "
                     "\"sigma_s_reduced\": [1.5, 1.9, 2.2], \"n\": 1.4, \"thickness_mm\": \"inf\"}]}");
-    command->callback([options, check] {
+    command->callback([options, check, ward] {
+        if (*ward) {
+            print_ward_albedo_table(std::cout);
+            return;
+        }
         if (isatty(STDERR_FILENO))
             options->rung_options.progress = [](double share) {
                 fmt::print(stderr, "\r{:3.0f} %{}", 100 * share, share >= 1 ? "\r     \r" : "");
