@@ -205,6 +205,10 @@ void Stage::place_wounds(Set& set) const
             continue;
         check_count(set.wounds.size() + fit->wounds.size(), fit->wounds.size(), name);
         place_wound(set, i, *fit, name, exact);
+        if (exact &&
+            !std::ranges::all_of(fit->wounds, [](const auto& w) { return w.prepared.patch.shows_skin; }))
+            set.notes.push_back(name +
+                                ": shows no healthy skin beside the wound; the face's own is taken for it");
     }
 }
 

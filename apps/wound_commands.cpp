@@ -113,6 +113,10 @@ void show_wound(const WoundCommand& command)
                           draw_wound_page(photograph, all[i], healing));
         engine::write_png(command.out / ("mask" + suffix + ".png"), all[i].photo_mask);
         write_json(command.out / ("wound" + suffix + ".json"), wound_to_json(all[i], healing));
+        if (!all[i].patch.shows_skin)
+            fmt::print(stderr,
+                       "note: {}: shows no healthy skin beside {}; an average one's colour is taken\n",
+                       command.photo, all.size() == 1 ? "the wound" : fmt::format("wound {}", i + 1));
         fmt::print("wound{0}.png, mask{0}.png, wound{0}.json in {1}: {2} control points\n", suffix,
                    command.out.string(), all[i].control_points.size());
     }

@@ -254,6 +254,7 @@ nlohmann::json wound_to_json(const wound::PreparedWound& wound, const wound::Hea
                         {"patch_side_px", wound.photo_side},
                         {"patch_width_mm", wound.patch.width_mm},
                         {"area_mm2", wound.area * std::pow(wound.patch.width_mm / 2, 2)},
+                        {"shows_skin", wound.patch.shows_skin},
                         {"depth_mm_max", deepest},
                         {"rim_mm_max", -lowest},
                         {"folds", folds},

@@ -5,7 +5,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/wound_photographs.hpp"
+#include "wound/color.hpp"
 #include "wound/contour.hpp"
+#include "wound/healthy_skin.hpp"
 #include "wound/input_error.hpp"
 
 namespace {
@@ -167,6 +169,61 @@ TEST(Prepare, AWoundCutByThePhotographsEdgeEndsThereInSkin)
         const wound::Warp warp = wound::make_warp(wound.flow, r);
         EXPECT_EQ(wound::check_folds(warp, 256).folded_texels, 0) << r;
     }
+}
+
+/// Wound everywhere.
+wound::Photograph filled(cv::Size size)
+{
+    return photograph(size, {size.width / 2., size.height / 2.}, [](double, double) { return 0.; });
+}
+
+// The photograph's edge is the border. No skin is seen, so an average one is taken for it.
+TEST(Prepare, AWoundThatFillsThePhotographEndsAtItsEdgeInAverageSkin)
+{
+    const auto wound = wound::prepare(filled({180, 120}), small_patch());
+    EXPECT_FALSE(wound.patch.shows_skin);
+    EXPECT_NEAR(wound.photo_side, 180 / wound::kWoundShare, 1e-9);
+    EXPECT_NEAR(wound.area * wound.photo_side * wound.photo_side / 4, 180 * 120, .01 * 180 * 120);
+    const double half = wound::kWoundShare, half_height = half * 120 / 180;
+    for (cv::Point2d p : wound.border) // every point is on a side
+        EXPECT_NEAR(std::max(std::abs(p.x) / half, std::abs(p.y) / half_height), 1, .03) << p;
+    EXPECT_FLOAT_EQ(wound.patch.opacity(128, 128), 1);
+    EXPECT_EQ(wound.patch.opacity(128, 40), 0);
+    const wound::Lab beyond = wound::lab_from_linear(wound::Color(wound.patch.color(128, 40)));
+    EXPECT_LT(wound::delta_e2000(beyond, wound::kAverageSkin), .1);
+    EXPECT_GT(wound.patch.depth_mm(128, 128), .5) << "red is deep beside average skin";
+    EXPECT_TRUE(cv::checkRange(wound.patch.color) && cv::checkRange(wound.patch.depth_mm));
+    for (double r : {1.4, .6, .2, .05, .01}) {
+        const wound::Warp warp = wound::make_warp(wound.flow, r);
+        EXPECT_EQ(wound::check_folds(warp, 256).folded_texels, 0) << r;
+        EXPECT_NEAR(wound::moments_of(wound::warp_image(wound.patch.mask, warp)).area / wound.area, r,
+                    std::max(.02 * r, .002));
+    }
+}
+
+TEST(Prepare, AWoundThatFillsAPictureOnBlackEndsWithThePicture)
+{
+    auto photo = filled({200, 200});
+    cv::Mat1b disk = cv::Mat1b::zeros(200, 200);
+    cv::circle(disk, {100, 100}, 90, 255, cv::FILLED);
+    photo.srgb.setTo(cv::Scalar::all(0), ~disk);
+    const auto wound = wound::prepare(photo, small_patch());
+    EXPECT_FALSE(wound.patch.shows_skin);
+    EXPECT_EQ(cv::countNonZero(wound.photo_mask != disk), 0);
+    photo.srgb.setTo(cv::Scalar::all(0));
+    EXPECT_THROW(wound::prepare(photo, small_patch()), cicatrix::InputError);
+}
+
+TEST(Prepare, WoundsThatFillThePhotographTogetherAreNoSkinForEachOther)
+{
+    auto photo = filled({200, 120});
+    photo.mask.col(110).setTo(0);
+    const auto wounds = wound::prepare_all(photo, small_patch());
+    ASSERT_EQ(wounds.size(), 2U);
+    EXPECT_FALSE(wounds[0].patch.shows_skin);
+    EXPECT_FALSE(wounds[1].patch.shows_skin);
+    const auto apart = photograph({300, 200}, {90, 100}, testing_wounds::ellipse(45, 45));
+    EXPECT_TRUE(wound::prepare(apart, small_patch()).patch.shows_skin);
 }
 
 TEST(Prepare, WarpedMaskOfARealPipelineHasTheRatiosArea)

@@ -238,11 +238,27 @@ TEST_F(Program, RefusesBrokenMasks)
     refused(file("none.png"), {"none.png"});
     refused(with("text.png", "not a mask"), {"text.png"});
     refused(with_png("empty.png", disc(128, {-99, -99}, 1)), {"empty.png", "empty"});
-    refused(with_png("full.png", cv::Mat1b(128, 128, 255)), {"full.png", "full"});
     refused(with_png("other.png", disc(64, {32, 32}, 12)), {"other.png", "64x64", "128x128"});
     expect_refusal(on_the_head({"--mask", with_png("mask.png", disc(128, {64, 64}, 24))}),
                    {"--mask", "--wound"});
     expect_refusal(run_program({"warps", file("empty.png"), "--out", file("out")}), {"empty.png", "empty"});
+}
+
+TEST_F(Program, TakesAPhotographThatIsWoundAllOverAndSaysWhatItAssumes)
+{
+    const std::string wound = with_png("photo.png", cv::Mat3b(photo()(cv::Rect(48, 48, 32, 32)))),
+                      mask = with_png("full.png", cv::Mat1b(32, 32, 255));
+    const auto expect_note = [&](const Outcome& outcome, const std::string& picture) {
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        const std::string note = "note: " + wound + ": shows no healthy skin";
+        EXPECT_THAT(outcome.err, HasSubstr(note));
+        EXPECT_EQ(outcome.err.find(note), outcome.err.rfind(note)) << "once";
+        EXPECT_THAT(files_in(file("out")), testing::Contains(picture));
+    };
+    expect_note(run_program({"wound", wound, "--mask", mask, "--out", file("out")}), "wound.json");
+    EXPECT_EQ(json::parse(bytes_of(folder_ / "out/wound.json"))["shows_skin"], false);
+    expect_note(on_the_head({"--size", "64x64", "--days", "9", "--wound", wound, "--mask", mask}),
+                "day_009.png");
 }
 
 TEST_F(Program, RefusesBrokenScenes)

@@ -110,15 +110,22 @@ TEST(Segmentation, HintsOutsideThePhotographAreRefused)
     EXPECT_THAT(refusal([&] { wound::segment(photo.srgb, hints, "p"); }), HasSubstr("rectangle"));
 }
 
-TEST(Mask, EmptyFullAndWrongSizeAreRefused)
+TEST(Mask, EmptyAndWrongSizeAreRefused)
 {
     const cv::Size size(60, 40);
     const auto reason = [&](const cv::Mat1b& mask) {
         return refusal([&] { wound::checked_mask(mask, size, "mask.png"); });
     };
     EXPECT_THAT(reason(cv::Mat1b::zeros(40, 60)), HasSubstr("mask.png: the mask is empty"));
-    EXPECT_THAT(reason(cv::Mat1b(40, 60, uchar(255))), HasSubstr("full"));
     EXPECT_THAT(reason(cv::Mat1b::zeros(41, 60)), HasSubstr("60x41"));
+}
+
+TEST(Mask, AFullOneIsTheWholePhotographUnlessThatIsTiny)
+{
+    const cv::Mat1b full(40, 60, uchar(255)), line(1, 200, uchar(255));
+    EXPECT_EQ(cv::countNonZero(wound::checked_mask(full, full.size(), "m")), 40 * 60);
+    EXPECT_THAT(refusal([&] { wound::checked_mask(line, line.size(), "line.png"); }),
+                HasSubstr("line.png: 200x1 pixels"));
 }
 
 TEST(Mask, LargestComponentIsTakenAndHolesAreFilled)

@@ -263,6 +263,45 @@ TEST(SkinMatch, FillsInAFaceThatIsKnownOnlyInPart)
     EXPECT_NEAR(result.color(n / 2, n / 2 - int(1.2f * radius))[1] / dark_skin[1], 1, .2f);
 }
 
+// A photograph of wound alone: what lies beyond its border is not the photograph's.
+TEST(SkinMatch, WithoutSkinInThePhotoTheFacesOwnIsTakenForIt)
+{
+    for (const Vec3f& face_tone : {light_skin, dark_skin}) {
+        const cv::Mat3f face = skin_of(face_tone);
+        Patch patch = wound_in(skin_of(yellow_skin)), other = wound_in(skin_of(dark_skin));
+        patch.color.setTo(blood);
+        patch.shows_skin = other.shows_skin = false;
+        const Patch result = match_to_skin(patch, face);
+        EXPECT_FALSE(result.shows_skin);
+        EXPECT_EQ(greatest_opacity(result, [](int x, int y) { return from_middle(x, y) > 1.1f * radius; }),
+                  0);
+        const Vec3f bed = mean_in_ring(result.color, 0, .8f * radius);
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_NEAR(bed[k], mean_in_ring(match_to_skin(other, face).color, 0, .8f * radius)[k], 1e-6f);
+            EXPECT_NEAR(bed[k] / blood[k], 1, .1f) << "nothing tells of a false white balance";
+        }
+        for (int y = 0; y < n; ++y)
+            for (int x = 0; x < n; ++x)
+                for (int k = 0; k < 3 && result.opacity(y, x) > 0; ++k)
+                    ASSERT_NEAR(result.color(y, x)[k], bed[k], .01f * bed[k])
+                        << "a fringe at " << x << ", " << y;
+    }
+    EXPECT_TRUE(match_to_skin(wound_in(skin_of(light_skin)), skin_of(light_skin)).shows_skin);
+}
+
+TEST(SkinMatch, WithoutSkinOrFaceABluishPhotoIsBalancedByItsBlood)
+{
+    Patch patch = wound_in(skin_of(light_skin));
+    patch.shows_skin = false;
+    const Vec3f as_is = mean_in_ring(match_to_skin(patch, {}).color, 0, .8f * radius);
+    for (Vec3f& color : patch.color)
+        color[2] *= 1.5f;
+    const Patch result = match_to_skin(patch, {});
+    expect_sound(result);
+    const Vec3f bed = mean_in_ring(result.color, 0, .8f * radius);
+    EXPECT_LT(bed[2] / bed[1], 1.3f * as_is[2] / as_is[1]);
+}
+
 TEST(SkinMatch, SurvivesHostileInput)
 {
     const cv::Mat3f face = skin_of(light_skin);

@@ -7,6 +7,7 @@
 
 #include "wound/color.hpp"
 #include "wound/contour.hpp"
+#include "wound/healthy_skin.hpp"
 #include "wound/input_error.hpp"
 
 namespace wound {
@@ -19,9 +20,15 @@ float smoothstep(float low, float high, float x)
     return t * t * (3 - 2 * t);
 }
 
-/// Fills what is not part of the picture with the mean of nearby skin, so that no black, nor the red of a
-/// wound that the picture's edge cuts, leaks into blurred or pulled skin.
-void fill_outside(cv::Mat3f& color, const cv::Mat1f& picture, const cv::Mat1f& skin)
+cv::Vec3f mean_of(const cv::Mat3f& color, const cv::Mat1b& where)
+{
+    const cv::Scalar mean = cv::mean(color, where);
+    return {static_cast<float>(mean[0]), static_cast<float>(mean[1]), static_cast<float>(mean[2])};
+}
+
+/// Fills what is not part of the picture with the mean of nearby skin, or with `mean` far from any, so that
+/// no black, nor the red of a wound that the picture's edge cuts, leaks into blurred or pulled skin.
+void fill_outside(cv::Mat3f& color, const cv::Mat1f& picture, const cv::Mat1f& skin, const cv::Vec3f& mean)
 {
     cv::Mat3f weight, sum;
     cv::Mat1f mass;
@@ -29,9 +36,6 @@ void fill_outside(cv::Mat3f& color, const cv::Mat1f& picture, const cv::Mat1f& s
     const double sigma = std::max(color.cols, color.rows) / 12.;
     cv::GaussianBlur(color.mul(weight), sum, {}, sigma);
     cv::GaussianBlur(skin, mass, {}, sigma);
-    const cv::Scalar whole = cv::mean(color, skin > .5F);
-    const cv::Vec3f mean(static_cast<float>(whole[0]), static_cast<float>(whole[1]),
-                         static_cast<float>(whole[2]));
     for (int j = 0; j < color.rows; ++j)
         for (int i = 0; i < color.cols; ++i) {
             const cv::Vec3f nearby = (sum(j, i) + 1e-3F * mean) / (mass(j, i) + 1e-3F);
@@ -80,7 +84,7 @@ void leave_out(Patch& patch, const cv::Mat1f& others)
     const cv::Mat1f share = to_others / (to_own + to_others + 1e-3F);
     patch.opacity = patch.opacity.mul(share);
     const cv::Mat1f own = away_from(others);
-    fill_outside(patch.color, own, own);
+    fill_outside(patch.color, own, own, mean_of(patch.color, own > .5F));
 }
 
 /// The photograph's square of `side` pixels around `center`, resampled to size x size.
@@ -148,6 +152,22 @@ PhotoFrame photo_frame(const cv::Mat1b& mask)
             std::max(bounds.width, bounds.height) / kWoundShare};
 }
 
+/// Segmented or checked. Of a full mask what the picture's black surroundings leave.
+cv::Mat1b day0_mask(const Photograph& photograph, const Preparation& preparation)
+{
+    const cv::Mat1b mask =
+        checked_mask(photograph.mask.empty() ? segment(photograph.srgb, preparation.hints, preparation.where)
+                                             : photograph.mask,
+                     photograph.srgb.size(), preparation.where);
+    if (cv::countNonZero(mask) < static_cast<int>(mask.total()))
+        return mask;
+    const cv::Mat1b picture = picture_area(photograph.srgb);
+    if (cv::countNonZero(picture) == 0)
+        throw cicatrix::InputError(preparation.where, "the photograph is black",
+                                   "give one that shows a wound");
+    return components(picture, 1).front();
+}
+
 void check(const Photograph& photograph, const Preparation& preparation)
 {
     if (photograph.srgb.empty())
@@ -165,10 +185,7 @@ void check(const Photograph& photograph, const Preparation& preparation)
 PreparedWound prepare(const Photograph& photograph, const Preparation& preparation)
 {
     check(photograph, preparation);
-    const cv::Mat1b mask =
-        checked_mask(photograph.mask.empty() ? segment(photograph.srgb, preparation.hints, preparation.where)
-                                             : photograph.mask,
-                     photograph.srgb.size(), preparation.where);
+    const cv::Mat1b mask = day0_mask(photograph, preparation);
     const auto [centroid, side] = photo_frame(mask);
 
     // A photograph much finer than the patch is made coarser first: its linear colours would need gigabytes.
@@ -188,15 +205,25 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
     Patch patch;
     patch.color = resample(linear_from_srgb(srgb), cv::BORDER_REPLICATE);
     patch.mask = resample_mask(working_mask, resample);
-    const cv::Mat1f skin = picture.mul(away_from(patch.mask));
-    fill_outside(patch.color, picture, cv::countNonZero(skin > .5F) > 0 ? skin : picture);
-    patch.opacity = first_opacity(patch.mask, picture);
+    cv::Mat1f others;
     if (!photograph.other_wounds.empty()) {
         cv::Mat1b working = photograph.other_wounds;
         if (shrink < 1)
             cv::resize(photograph.other_wounds, working, srgb.size(), 0, 0, cv::INTER_AREA);
-        leave_out(patch, resample_mask(working, resample));
+        others = resample_mask(working, resample);
     }
+    cv::Mat1f skin = picture.mul(away_from(patch.mask));
+    if (!others.empty())
+        skin = skin.mul(away_from(others));
+    const cv::Mat1b certain = skin > .5F;
+    patch.shows_skin = cv::countNonZero(certain) >= kLeastSkin * static_cast<double>(certain.total());
+    if (!patch.shows_skin)
+        skin.setTo(0);
+    fill_outside(patch.color, picture, skin,
+                 patch.shows_skin ? mean_of(patch.color, certain) : cv::Vec3f(linear_from_lab(kAverageSkin)));
+    patch.opacity = first_opacity(patch.mask, picture);
+    if (!others.empty())
+        leave_out(patch, others);
     patch.width_mm = preparation.width_mm / kWoundShare;
     PreparedWound wound = prepare_patch(std::move(patch), preparation, false);
     wound.photo_mask = mask;

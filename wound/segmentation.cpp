@@ -340,11 +340,13 @@ cv::Mat1b checked_mask(const cv::Mat1b& mask, cv::Size photograph, std::string_v
                                                mask.rows, photograph.width, photograph.height),
                                    "give a mask of the photograph's size");
     const cv::Mat1b binary = mask > 127;
-    const int area = cv::countNonZero(binary);
-    if (area == 0)
+    if (cv::countNonZero(binary) == 0)
         throw cicatrix::InputError(where, "the mask is empty", "paint the wound white on black");
-    if (area == static_cast<int>(binary.total()))
-        throw cicatrix::InputError(where, "the mask is full", "paint only the wound white, on black");
+    if (std::min(mask.cols, mask.rows) < kLeastSide &&
+        cv::countNonZero(binary) == static_cast<int>(binary.total()))
+        throw cicatrix::InputError(
+            where, fmt::format("{}x{} pixels, all of them wound, are too few", mask.cols, mask.rows),
+            "give a larger photograph");
     return components(binary, 1).front();
 }
 

@@ -40,8 +40,9 @@ cv::Mat1b picture_area(const cv::Mat3b& srgb);
 /// it.
 std::vector<cv::Mat1b> components(const cv::Mat1b& mask, std::size_t most);
 
-/// Checks a mask that the user gives: of the photograph's size, neither empty nor full. Returns its largest
-/// component with holes filled; where that touches the picture's edge, the edge is taken for its border.
+/// Checks a mask that the user gives: of the photograph's size, not empty. Returns its largest component with
+/// holes filled; where that touches the picture's edge, the edge is taken for its border: all of it when the
+/// mask is full.
 /// Throws cicatrix::InputError.
 cv::Mat1b checked_mask(const cv::Mat1b& mask, cv::Size photograph, std::string_view where);
 

@@ -166,6 +166,22 @@ Face coarse_face(const cv::Mat3f& skin)
     return face;
 }
 
+/// Where the photograph shows no healthy skin: that of the face, or else kAverageSkin, nowhere to be seen.
+HealthySkin assumed_skin(const Face& face)
+{
+    HealthySkin skin;
+    skin.outwardness = cv::Mat1f(grid, grid, 1.f);
+    skin.health = cv::Mat1f(grid, grid, 0.f);
+    skin.foreignness = cv::Mat1f(grid, grid, 0.f);
+    skin.rawness = cv::Mat1f(grid, grid, 1.f);
+    const cv::Scalar mean = cv::mean(face.log_color, face.weight > .5f);
+    if (face.log_green)
+        skin.log_color = {float(mean[0]), float(mean[1]), float(mean[2])};
+    else
+        cv::log(Vec3f(linear_from_lab(kAverageSkin)), skin.log_color);
+    return skin;
+}
+
 /// Log gain of the bed when the photo's skin is much darker than the face: .4 may be the patient's own tone,
 /// most of the rest is taken for underexposure. Never darkens: blood is as red on dark skin.
 float lift(const HealthySkin& skin, const Face& face)
@@ -256,7 +272,7 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
 {
     Source source = checked(patch);
     const int n = source.color.rows;
-    Patch result{cv::Mat3f(n, n), cv::Mat1f(n, n), patch.mask, patch.depth_mm, patch.width_mm};
+    Patch result{cv::Mat3f(n, n), cv::Mat1f(n, n), patch.mask, patch.depth_mm, patch.width_mm, true};
 
     flatten_glints(source.color, source.coverage, source.radius);
     cv::Mat3f log_photo;
@@ -265,14 +281,18 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
     const cv::Mat3f log_coarse = coarse(log_photo);
     const cv::Mat1f covered = coarse(source.coverage);
     const float reach = source.reach * grid / float(n);
-    const HealthySkin skin =
-        find_healthy_skin(log_coarse, covered, coarse(source.valid), std::max(reach, 3.f));
     const Face face = coarse_face(face_skin);
-    Vec3f bed = Vec3f::all(0);
-    if (skin.found)
-        bed = bed_gain(skin.log_color, blue_of_blood(log_coarse, covered)) + Vec3f::all(lift(skin, face));
+    HealthySkin skin =
+        patch.shows_skin ? find_healthy_skin(log_coarse, covered, coarse(source.valid), std::max(reach, 3.f))
+                         : HealthySkin{};
+    if (!skin.found)
+        skin = assumed_skin(face);
+    result.shows_skin = skin.found;
+    const Vec3f bed =
+        bed_gain(skin.log_color, blue_of_blood(log_coarse, covered)) + Vec3f::all(lift(skin, face));
 
-    const cv::Mat3f gain = enlarged(skin_gain(log_coarse, skin, face), n);
+    const cv::Mat3f gain =
+        skin.found ? enlarged(skin_gain(log_coarse, skin, face), n) : cv::Mat3f(n, n, Vec3f::all(0));
     const cv::Mat3f detail = detail_change(face_skin, face, log_photo, log_coarse);
     const cv::Mat1f outwardness = enlarged(skin.outwardness, n), health = enlarged(skin.health, n);
     const cv::Mat1f rawness = enlarged(skin.rawness, n), foreignness = enlarged(skin.foreignness, n);
