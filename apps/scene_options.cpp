@@ -21,13 +21,13 @@ void add_hint_options(CLI::App& command, HintOptions& options)
 {
     command
         .add_option("--seed", options.seed,
-                    "A pixel of the photograph inside the wound, when there is no mask")
+                    "A pixel of the photograph inside the one wound to take, when there is no mask")
         ->delimiter(',')
         ->expected(2)
         ->type_name("X,Y");
     command
         .add_option("--rect", options.rect,
-                    "A rectangle of the photograph around the wound, when there is no mask")
+                    "A rectangle of the photograph around the wounds to take, when there is no mask")
         ->delimiter(',')
         ->expected(4)
         ->type_name("X,Y,W,H");

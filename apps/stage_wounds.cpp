@@ -111,16 +111,17 @@ std::shared_ptr<const Workshop::Base> make_base(const WoundScene& scene, const s
 {
     auto base = std::make_shared<Workshop::Base>();
     base->tissue = tissue_at(scene, passes::known_face_point(scene.place).value_or(passes::FacePoint{}));
-    base->parts = wound::separate(read_photograph(scene), scene.width_mm,
-                                  scene.mask.empty() ? name : scene.mask.string());
+    wound::Preparation preparation;
+    preparation.where = scene.mask.empty() ? name : scene.mask.string();
+    preparation.width_mm = scene.width_mm;
+    preparation.hints = scene.segmentation;
+    preparation.depth.tissue = base->tissue;
+    base->parts = wound::separate(read_photograph(scene), preparation);
     check_count(base->parts.size(), base->parts.size(), name);
+    preparation.where = name;
     std::vector<std::future<wound::PreparedWound>> prepared;
     for (const wound::WoundPart& part : base->parts) {
-        wound::Preparation preparation;
-        preparation.where = name;
         preparation.width_mm = part.width_mm;
-        preparation.hints = scene.segmentation;
-        preparation.depth.tissue = base->tissue;
         prepared.push_back(
             std::async(std::launch::async, wound::prepare, std::cref(part.photograph), preparation));
     }
@@ -194,9 +195,10 @@ void check_count(std::size_t all, std::size_t components, const std::string& nam
     if (all > std::size_t(shared::MAX_WOUNDS))
         throw cicatrix::InputError(
             name,
-            fmt::format("its mask has {} components, which makes more than {} wounds in the scene",
+            fmt::format("{} components of its mask, or wounds found in it, make more than {} in the scene",
                         components, shared::MAX_WOUNDS),
-            "leave wounds out of the scene, or components out of the mask");
+            "leave wounds out of the scene, or components out of the mask; without a mask, give a "
+            "rectangle or a seed");
 }
 
 std::vector<passes::Anchor> anchors_of(const WoundScene& scene, const Fit& fit, const LoadedHead& head,
@@ -208,10 +210,11 @@ std::vector<passes::Anchor> anchors_of(const WoundScene& scene, const Fit& fit, 
                                                              scene.roll_deg, name + ": at")};
     for (std::size_t i = 1; i < fit.layout.size(); ++i) {
         const Fit::Part& part = fit.layout[i];
-        anchors.push_back(passes::anchor_beside(*head.model, head.face, anchors.front(),
-                                                1e-3 * scale * glm::dvec2(part.offset_mm.x, part.offset_mm.y),
-                                                scale * part.width_mm / wound::kWoundShare,
-                                                fmt::format("{}: component {} of the mask", name, i + 1)));
+        anchors.push_back(passes::anchor_beside(
+            *head.model, head.face, anchors.front(),
+            1e-3 * scale * glm::dvec2(part.offset_mm.x, part.offset_mm.y),
+            scale * part.width_mm / wound::kWoundShare,
+            fmt::format("{}: component {} of the mask, or of what was found without one", name, i + 1)));
     }
     return anchors;
 }

@@ -86,6 +86,17 @@ TEST_F(SeveralWounds, LieOnTheHeadAsInThePhotograph)
     EXPECT_NEAR(anchors[2].half_width_m / anchors[1].half_width_m, .5, .02);
 }
 
+TEST_F(SeveralWounds, AreFoundWithoutAMask)
+{
+    app::Scene scene = small::scene(small::wall({.55F, .36F, .27F}));
+    scene.wounds = {wound_of({{{110, 150}, 30}, {{200, 150}, 15}})};
+    scene.wounds[0].place = glm::dvec3(0);
+    scene.wounds[0].mask.clear();
+    const app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
+    ASSERT_EQ(stage.anchors().size(), 2U);
+    EXPECT_NEAR(stage.anchors()[1].centre.x, 1e-3 * 90 * scene.wounds[0].width_mm / 59, 5e-4);
+}
+
 TEST_F(SeveralWounds, FollowTheHeadsSurface)
 {
     app::Scene scene = small::scene(small::head());

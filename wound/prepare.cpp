@@ -152,13 +152,10 @@ PhotoFrame photo_frame(const cv::Mat1b& mask)
             std::max(bounds.width, bounds.height) / kWoundShare};
 }
 
-/// Segmented or checked. Of a full mask what the picture's black surroundings leave.
+/// Checked. Of a full one what the picture's black surroundings leave.
 cv::Mat1b day0_mask(const Photograph& photograph, const Preparation& preparation)
 {
-    const cv::Mat1b mask =
-        checked_mask(photograph.mask.empty() ? segment(photograph.srgb, preparation.hints, preparation.where)
-                                             : photograph.mask,
-                     photograph.srgb.size(), preparation.where);
+    const cv::Mat1b mask = checked_mask(photograph.mask, photograph.srgb.size(), preparation.where);
     if (cv::countNonZero(mask) < static_cast<int>(mask.total()))
         return mask;
     const cv::Mat1b picture = picture_area(photograph.srgb);
@@ -185,6 +182,8 @@ void check(const Photograph& photograph, const Preparation& preparation)
 PreparedWound prepare(const Photograph& photograph, const Preparation& preparation)
 {
     check(photograph, preparation);
+    if (photograph.mask.empty())
+        return prepare(separate(photograph, preparation).front().photograph, preparation);
     const cv::Mat1b mask = day0_mask(photograph, preparation);
     const auto [centroid, side] = photo_frame(mask);
 
@@ -232,13 +231,14 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
     return wound;
 }
 
-std::vector<WoundPart> separate(const Photograph& photograph, double width_mm, const std::string& where)
+std::vector<WoundPart> separate(const Photograph& photograph, const Preparation& preparation)
 {
     constexpr std::size_t kMost = 64;
-    if (photograph.mask.empty())
-        return {{photograph, width_mm, {}}};
-    const cv::Mat1b largest = checked_mask(photograph.mask, photograph.srgb.size(), where);
-    const cv::Mat1b all = photograph.mask > 127;
+    const auto& [where, width_mm] = std::tie(preparation.where, preparation.width_mm);
+    const cv::Mat1b given =
+        photograph.mask.empty() ? segment(photograph.srgb, preparation.hints, where) : photograph.mask;
+    const cv::Mat1b largest = checked_mask(given, photograph.srgb.size(), where);
+    const cv::Mat1b all = given > 127;
     const std::vector<cv::Mat1b> masks = components(all, kMost + 1);
     if (masks.size() > kMost)
         throw cicatrix::InputError(where, fmt::format("the mask has more than {} components", kMost),
@@ -260,7 +260,7 @@ std::vector<PreparedWound> prepare_all(const Photograph& photograph, const Prepa
 {
     check(photograph, preparation);
     std::vector<PreparedWound> wounds;
-    for (const WoundPart& part : separate(photograph, preparation.width_mm, preparation.where)) {
+    for (const WoundPart& part : separate(photograph, preparation)) {
         Preparation one = preparation;
         one.width_mm = part.width_mm;
         wounds.push_back(prepare(part.photograph, one));

@@ -24,9 +24,9 @@ struct Preparation
     DepthOptions depth;
 };
 
-/// Segments (or checks the given mask), resamples a square patch around the centroid and measures border,
-/// control points, depth and the contraction's flow in it. The colour is the photograph's own;
-/// match_to_skin() fits it to a face. Throws cicatrix::InputError.
+/// Segments (or checks the given mask), takes the largest wound, resamples a square patch around the centroid
+/// and measures border, control points, depth and the contraction's flow in it. The colour is the
+/// photograph's own; match_to_skin() fits it to a face. Throws cicatrix::InputError.
 PreparedWound prepare(const Photograph& photograph, const Preparation& preparation);
 
 /// One of the wounds of a photograph, and how it lies there.
@@ -37,11 +37,11 @@ struct WoundPart
     cv::Point2d offset_mm; // of its centroid from the largest one's; x right, y down
 };
 
-/// The wounds of a mask with several components, the largest first, all at the scale that `width_mm`, the
-/// largest one's, gives. Without a mask the photograph as it is. Throws
-/// cicatrix::InputError (`where` names the mask) for one that checked_mask() refuses or of more than 64
-/// components.
-std::vector<WoundPart> separate(const Photograph& photograph, double width_mm, const std::string& where);
+/// The wounds of a photograph, the largest first, each with its mask: the components of the given one, or of
+/// what segment() finds. All are at the scale that `preparation.width_mm`, the largest one's, gives. Throws
+/// cicatrix::InputError for a mask that checked_mask() refuses or of more than 64 components, and as
+/// segment() does.
+std::vector<WoundPart> separate(const Photograph& photograph, const Preparation& preparation);
 
 /// Every wound of a photograph, prepared.
 std::vector<PreparedWound> prepare_all(const Photograph& photograph, const Preparation& preparation);

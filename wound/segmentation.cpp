@@ -6,208 +6,19 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
+#include "wound/grab_cut.hpp"
 #include "wound/input_error.hpp"
+#include "wound/wound_candidates.hpp"
 
 namespace wound {
 
 namespace {
 
-constexpr int kWorkingSize = 400; // pixels on the longer side
-constexpr int kClusters = 8;
-constexpr int kGrabCutIterations = 4;
+constexpr int kWorkingSize = 400;    // pixels on the longer side
 constexpr double kLeastContrast = 5; // CIELAB distance across a wound's border, on average
 constexpr int kLeastSide = 16;       // pixels of a photograph
 
-cv::Mat1b fill_holes(const cv::Mat1b& mask)
-{
-    std::vector<std::vector<cv::Point>> outlines;
-    cv::findContours(mask, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
-    cv::Mat1b filled = cv::Mat1b::zeros(mask.size());
-    cv::drawContours(filled, outlines, -1, 255, cv::FILLED);
-    return filled;
-}
-
-/// The wound and its surroundings as GrabCut is told about them, at working resolution.
-struct Problem
-{
-    cv::Rect frame; // of the photograph, its pixels
-    cv::Mat3b srgb;
-    cv::Mat3f lab;
-    cv::Mat1b picture; // 255 where there is a picture
-    cv::Rect rect;     // the wound lies inside
-    cv::Point seed;
-};
-
-/// A disk around the seed, certain to be wound.
-cv::Mat1b seed_disk(const Problem& problem)
-{
-    cv::Mat1b disk = cv::Mat1b::zeros(problem.srgb.size());
-    const int radius = std::max(2, std::min(problem.rect.width, problem.rect.height) / 12);
-    cv::circle(disk, problem.seed, radius, 255, cv::FILLED);
-    return disk & problem.picture;
-}
-
-/// Certain to be skin: what lies outside the rectangle.
-cv::Mat1b surroundings(const Problem& problem)
-{
-    cv::Mat1b outside = problem.picture.clone();
-    outside(problem.rect).setTo(0);
-    return outside;
-}
-
-/// 255 where a pixel's colour cluster is more at home near the seed than in the surroundings.
-cv::Mat1b likely_wound(const Problem& problem, const cv::Mat1b& outside)
-{
-    std::vector<cv::Vec3f> colors;
-    std::vector<cv::Point> places;
-    for (int y = 0; y < problem.lab.rows; ++y)
-        for (int x = 0; x < problem.lab.cols; ++x)
-            if (problem.picture(y, x)) {
-                cv::Vec3f color = problem.lab(y, x);
-                color[0] *= .5F; // lightness varies with shading more than with tissue
-                colors.push_back(color);
-                places.emplace_back(x, y);
-            }
-    cv::Mat1i labels;
-    const cv::Mat samples(static_cast<int>(colors.size()), 3, CV_32F, colors.data());
-    const int clusters = std::min(kClusters, samples.rows);
-    cv::theRNG().state = 1;
-    cv::kmeans(samples, clusters, labels, {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 30, .1}, 3,
-               cv::KMEANS_PP_CENTERS);
-
-    // Near the seed: the ellipse within the rectangle, weighted towards its middle.
-    std::vector<double> near(clusters, 0.), away(clusters, 0.);
-    double all_near = 0, all_away = 0;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const double dx = (places[i].x - problem.seed.x) / (.5 * problem.rect.width);
-        const double dy = (places[i].y - problem.seed.y) / (.5 * problem.rect.height);
-        const double weight = std::exp(-4 * (dx * dx + dy * dy));
-        near[labels(static_cast<int>(i))] += weight;
-        all_near += weight;
-        if (outside(places[i])) {
-            away[labels(static_cast<int>(i))] += 1;
-            all_away += 1;
-        }
-    }
-    cv::Mat1b likely = cv::Mat1b::zeros(problem.lab.size());
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const int cluster = labels(static_cast<int>(i));
-        if (near[cluster] / all_near > away[cluster] / std::max(all_away, 1.))
-            likely(places[i]) = 255;
-    }
-    return likely;
-}
-
-/// The component that holds the seed, or else the largest.
-cv::Mat1b main_component(const cv::Mat1b& mask, cv::Point seed)
-{
-    cv::Mat1i labels;
-    cv::Mat stats, centroids;
-    const int count = cv::connectedComponentsWithStats(mask, labels, stats, centroids, 8);
-    int chosen = labels(seed);
-    for (int i = 1; i < count && labels(seed) == 0; ++i)
-        if (chosen == 0 || stats.at<int>(i, cv::CC_STAT_AREA) > stats.at<int>(chosen, cv::CC_STAT_AREA))
-            chosen = i;
-    return chosen == 0 ? cv::Mat1b::zeros(mask.size()) : fill_holes(labels == chosen);
-}
-
-cv::Mat1b solve(const Problem& problem)
-{
-    const cv::Mat1b outside = surroundings(problem);
-    const cv::Mat1b seed = seed_disk(problem);
-    const cv::Mat1b likely = likely_wound(problem, outside);
-    cv::Mat1b labels(problem.srgb.size(), static_cast<uchar>(cv::GC_BGD));
-    labels(problem.rect).setTo(cv::GC_PR_BGD);
-    cv::Mat1b candidates = cv::Mat1b::zeros(labels.size());
-    likely(problem.rect).copyTo(candidates(problem.rect));
-    labels.setTo(cv::GC_PR_FGD, candidates);
-    labels.setTo(cv::GC_FGD, seed);
-    labels.setTo(cv::GC_BGD, problem.picture == 0);
-    if (cv::countNonZero(seed) == 0 || cv::countNonZero(outside) == 0)
-        return cv::Mat1b::zeros(labels.size());
-
-    cv::theRNG().state = 1; // GrabCut draws from it: the same photograph always gives the same mask
-    cv::Mat background, foreground;
-    cv::grabCut(problem.srgb, labels, {}, background, foreground, kGrabCutIterations, cv::GC_INIT_WITH_MASK);
-    cv::Mat1b mask = (labels == cv::GC_FGD) | (labels == cv::GC_PR_FGD);
-    const cv::Mat brush = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
-    cv::morphologyEx(mask, mask, cv::MORPH_OPEN, brush);
-    cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, brush);
-    return main_component(mask, problem.seed);
-}
-
-/// How wound and skin differ across the mask's border, CIELAB, averaged along it.
-struct BorderContrast
-{
-    double distance = 0;   // of the colours just inside and just outside
-    double wound_like = 0; // how much redder and darker the inside is; a limb before a dark background is not
-};
-
-/// A border that is the rectangle's own counts as none.
-BorderContrast border_contrast(const Problem& problem, const cv::Mat1b& mask)
-{
-    const int area = cv::countNonZero(mask);
-    if (area == 0)
-        return {};
-    const int step = std::max(2, static_cast<int>(.06 * std::sqrt(area)));
-    std::vector<std::vector<cv::Point>> outlines;
-    cv::findContours(mask, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
-    cv::Mat1f soft, slope_x, slope_y;
-    mask.convertTo(soft, CV_32F);
-    cv::GaussianBlur(soft, soft, {}, step);
-    cv::Sobel(soft, slope_x, CV_32F, 1, 0);
-    cv::Sobel(soft, slope_y, CV_32F, 0, 1);
-    cv::Mat3f colors;
-    cv::GaussianBlur(problem.lab, colors, {}, .5 * step);
-    const cv::Rect picture(cv::Point(), mask.size());
-    const cv::Rect interior(problem.rect.tl() + cv::Point(2, 2), problem.rect.br() - cv::Point(2, 2));
-    BorderContrast sum;
-    for (cv::Point p : outlines.front()) {
-        const cv::Point2f inward(slope_x(p), slope_y(p));
-        const float length = std::hypot(inward.x, inward.y);
-        if (!interior.contains(p) || length == 0)
-            continue;
-        const cv::Point2f unit = inward * (1.5F * static_cast<float>(step) / length);
-        const cv::Point inside(cvRound(p.x + unit.x), cvRound(p.y + unit.y));
-        const cv::Point outside(cvRound(p.x - unit.x), cvRound(p.y - unit.y));
-        if (!picture.contains(inside) || !picture.contains(outside) || !problem.picture(outside))
-            continue;
-        const cv::Vec3f difference = colors(inside) - colors(outside);
-        sum.distance += cv::norm(difference);
-        sum.wound_like += std::max(difference[1] - .5F * difference[0], 0.F);
-    }
-    const auto points = static_cast<double>(outlines.front().size());
-    return {sum.distance / points, sum.wound_like / points};
-}
-
-/// The rectangle and as much again around it, at most `working_size` pixels on the longer side.
-Problem pose(const cv::Mat3b& srgb, const cv::Rect& rect, cv::Point seed, int working_size)
-{
-    Problem problem;
-    problem.frame =
-        cv::Rect(rect.x - rect.width / 2, rect.y - rect.height / 2, 2 * rect.width, 2 * rect.height) &
-        cv::Rect(cv::Point(), srgb.size());
-    const double scale =
-        std::min(1., working_size / static_cast<double>(std::max(problem.frame.width, problem.frame.height)));
-    cv::Mat3b small;
-    cv::resize(srgb(problem.frame), small, {}, scale, scale, cv::INTER_AREA);
-    cv::medianBlur(small, problem.srgb, 5); // hairs, glints
-    cv::Mat3f unit;
-    problem.srgb.convertTo(unit, CV_32F, 1 / 255.);
-    cv::cvtColor(unit, problem.lab, cv::COLOR_RGB2Lab);
-    problem.picture = picture_area(problem.srgb);
-    const auto scaled = [&](cv::Point p) {
-        return cv::Point(cvRound((p.x - problem.frame.x) * scale), cvRound((p.y - problem.frame.y) * scale));
-    };
-    problem.rect =
-        cv::Rect(scaled(rect.tl()), scaled(rect.br())) & cv::Rect(cv::Point(), problem.srgb.size());
-    problem.seed = scaled(seed);
-    problem.seed = {std::clamp(problem.seed.x, 0, problem.srgb.cols - 1),
-                    std::clamp(problem.seed.y, 0, problem.srgb.rows - 1)};
-    return problem;
-}
-
-/// Without a rectangle, the one of several sizes around the seed in which the sharpest closed border is
+/// The one of several sizes around the seed in which the sharpest closed border is
 /// found.
 cv::Rect best_rectangle(const cv::Mat3b& srgb, const cv::Rect& bounds, cv::Point seed)
 {
@@ -223,7 +34,7 @@ cv::Rect best_rectangle(const cv::Mat3b& srgb, const cv::Rect& bounds, cv::Point
             cv::Rect(seed.x - half.width, seed.y - half.height, 2 * half.width, 2 * half.height) & inner;
         if (rect.width < 8 || rect.height < 8)
             continue;
-        const Problem problem = pose(srgb, rect, seed, kTrialSize);
+        const CutProblem problem = pose(srgb, rect, seed, kTrialSize);
         const double contrast = border_contrast(problem, solve(problem)).wound_like;
         if (contrast > sharpest) {
             sharpest = contrast;
@@ -245,6 +56,73 @@ cv::Rect picture_bounds(const cv::Mat3b& srgb)
            cv::Rect(cv::Point(), srgb.size());
 }
 
+/// 255 where `mask`, of `from`'s maps, says so, in the maps of `to`.
+cv::Mat1b moved(const cv::Mat1b& mask, const CutProblem& from, const CutProblem& to)
+{
+    const double there = double(from.srgb.cols) / from.frame.width; // map pixels per photograph pixel
+    const double here = double(to.frame.width) / to.srgb.cols;
+    const cv::Point2d offset = cv::Point2d(to.frame.tl() - from.frame.tl()) * there;
+    const double half = .5 * here * there - .5; // pixels' middles, not their corners, lie on each other
+    const cv::Matx23d inverse(here * there, 0, offset.x + half, 0, here * there, offset.y + half);
+    cv::Mat1b result;
+    cv::warpAffine(mask, result, inverse, to.srgb.size(), cv::INTER_NEAREST | cv::WARP_INVERSE_MAP);
+    return result;
+}
+
+/// Other wounds are no part of the picture; their colours are taken for skin's, lest GrabCut learn them.
+void leave_out(CutProblem& problem, const cv::Mat1b& others)
+{
+    problem.picture.setTo(0, others);
+    cv::Mat1b around = problem.picture.clone();
+    around(problem.rect).setTo(0);
+    problem.srgb.setTo(cv::mean(problem.srgb, around), others);
+}
+
+/// A candidate found in `field`, a tenth or so larger than it.
+CutProblem pose_around(const cv::Mat3b& srgb, const CutProblem& field, const WoundCandidate& candidate)
+{
+    const double scale = double(field.frame.width) / field.srgb.cols;
+    const cv::Rect& b = candidate.bounds;
+    const cv::Point margin(b.width * 3 / 20 + 2, b.height * 3 / 20 + 2);
+    const auto in_photograph = [&](cv::Point p) {
+        return cv::Point(cv::Point2d(p) * scale) + field.frame.tl();
+    };
+    const cv::Rect rect(in_photograph(b.tl() - margin), in_photograph(b.br() + margin));
+    return pose(srgb, rect & field.frame, in_photograph(candidate.deepest), kWorkingSize);
+}
+
+/// One for every wound that the hints ask for; none where nothing looks like a wound.
+std::vector<CutProblem> problems(const cv::Mat3b& srgb, const SegmentationHints& hints,
+                                 const cv::Rect& bounds)
+{
+    const cv::Rect rect = hints.rect.value_or(bounds);
+    const cv::Point seed = hints.seed.value_or((rect.tl() + rect.br()) / 2);
+    const CutProblem field = pose(srgb, rect, seed, kWorkingSize);
+    if (hints.rect && hints.seed)
+        return {field};
+    std::vector<WoundCandidate> candidates =
+        wound_candidates(field.lab, field.picture, hints.seed ? std::optional(field.seed) : std::nullopt);
+    std::erase_if(candidates, [&](const WoundCandidate& c) {
+        return 5 * (c.bounds & field.rect).area() < 4 * c.bounds.area();
+    });
+    if (hints.rect && candidates.size() < 2) // the user has drawn its surroundings better
+        return {field};
+    if (hints.seed && candidates.empty())
+        return {pose(srgb, best_rectangle(srgb, bounds, seed), seed, kWorkingSize)};
+    cv::Mat1b all = cv::Mat1b::zeros(field.srgb.size());
+    for (const WoundCandidate& candidate : candidates)
+        all |= candidate.region;
+    std::vector<CutProblem> result;
+    for (const WoundCandidate& candidate : candidates) {
+        CutProblem problem = pose_around(srgb, field, candidate);
+        problem.guess = moved(candidate.region, field, problem);
+        if (candidates.size() > 1)
+            leave_out(problem, moved(all & ~candidate.region, field, problem));
+        result.push_back(std::move(problem));
+    }
+    return result;
+}
+
 [[noreturn]] void no_wound(std::string_view where, std::string_view why)
 {
     throw NoWound(where, fmt::format("no wound found: {}", why),
@@ -253,6 +131,15 @@ cv::Rect picture_bounds(const cv::Mat3b& srgb)
 }
 
 } // namespace
+
+cv::Mat1b fill_holes(const cv::Mat1b& mask)
+{
+    std::vector<std::vector<cv::Point>> outlines;
+    cv::findContours(mask, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+    cv::Mat1b filled = cv::Mat1b::zeros(mask.size());
+    cv::drawContours(filled, outlines, -1, 255, cv::FILLED);
+    return filled;
+}
 
 cv::Mat1b picture_area(const cv::Mat3b& srgb)
 {
@@ -292,20 +179,23 @@ cv::Mat1b segment(const cv::Mat3b& srgb, const SegmentationHints& hints, std::st
     const cv::Rect bounds = picture_bounds(srgb);
     if (bounds.width < kLeastSide || bounds.height < kLeastSide)
         no_wound(where, "the photograph is black");
-    const cv::Rect rect =
-        hints.rect ? *hints.rect
-                   : best_rectangle(srgb, bounds, hints.seed.value_or((bounds.tl() + bounds.br()) / 2));
-    const Problem problem = pose(srgb, rect, hints.seed.value_or((rect.tl() + rect.br()) / 2), kWorkingSize);
-    const cv::Mat1b mask = solve(problem);
-    if (cv::countNonZero(mask) < 16)
-        no_wound(where, "nothing near the seed differs from its surroundings");
-    if (border_contrast(problem, mask).distance < kLeastContrast)
-        no_wound(where, "what was found has nearly its surroundings' colour");
-    cv::Mat1f coverage;
-    mask.convertTo(coverage, CV_32F, 1 / 255.);
-    cv::resize(coverage, coverage, problem.frame.size(), 0, 0, cv::INTER_LINEAR);
     cv::Mat1b result = cv::Mat1b::zeros(srgb.size());
-    cv::Mat1b(coverage > .5).copyTo(result(problem.frame));
+    std::string_view why = "nothing stands out from the skin around it as wounds do";
+    for (const CutProblem& problem : problems(srgb, hints, bounds)) {
+        const cv::Mat1b mask = solve(problem);
+        if (cv::countNonZero(mask) < 16) {
+            why = "nothing near the seed differs from its surroundings";
+        } else if (border_contrast(problem, mask).distance < kLeastContrast) {
+            why = "what was found has nearly its surroundings' colour";
+        } else {
+            cv::Mat1f coverage;
+            mask.convertTo(coverage, CV_32F, 1 / 255.);
+            cv::resize(coverage, coverage, problem.frame.size(), 0, 0, cv::INTER_LINEAR);
+            result(problem.frame).setTo(255, coverage > .5);
+        }
+    }
+    if (cv::countNonZero(result) == 0)
+        no_wound(where, why);
     return result;
 }
 

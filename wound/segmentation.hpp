@@ -1,6 +1,5 @@
-// Finds the wound in a photograph without learned weights: colour clusters that the seed has and the
-// surroundings have not, refined by GrabCut (Rother, Kolmogorov, Blake 2004), largest component, holes
-// filled.
+// Finds the wounds in a photograph without learned weights: regions that stand out from the skin around them
+// (wound/wound_candidates.hpp), each cut out by GrabCut (wound/grab_cut.hpp).
 #pragma once
 #include <opencv2/core.hpp>
 #include <optional>
@@ -13,9 +12,8 @@ namespace wound {
 
 struct SegmentationHints
 {
-    std::optional<cv::Point>
-        seed; // pixel inside the wound; default: the middle of the rectangle or the photograph
-    std::optional<cv::Rect> rect; // pixels; the wound lies inside, near its borders is skin
+    std::optional<cv::Point> seed; // pixel inside the wound: this one alone
+    std::optional<cv::Rect> rect;  // pixels; the wounds lie inside, near its borders is skin
     bool any() const { return seed || rect; }
     bool operator==(const SegmentationHints&) const = default;
 };
@@ -26,11 +24,14 @@ struct NoWound : cicatrix::InputError
     using InputError::InputError;
 };
 
-/// 255 in the wound, of the photograph's size. `srgb` in RGB order; near-black surroundings of a cropped
+/// 255 in the wounds, of the photograph's size. `srgb` in RGB order; near-black surroundings of a cropped
 /// picture count as no part of it. Works at up to 400 pixels a side (of the rectangle and its surroundings
 /// when there is one) and maps the result back. Deterministic. Throws cicatrix::InputError (`where` names the
 /// photograph) for too small a photograph or hints outside it, NoWound for one with no wound in it.
 cv::Mat1b segment(const cv::Mat3b& srgb, const SegmentationHints& hints, std::string_view where);
+
+/// `mask` with what its components enclose.
+cv::Mat1b fill_holes(const cv::Mat1b& mask);
 
 /// 255 where there is a picture: all but near-black pixels joined to its edge (circular crops, letter boxes).
 cv::Mat1b picture_area(const cv::Mat3b& srgb);
