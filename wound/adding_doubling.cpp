@@ -91,7 +91,7 @@ Operator boundary(const Nodes& nodes, double n_above, double n_below)
     const double thinner = std::min(n_above, n_below);
     // Total reflection falls short of 1 by next to nothing, lest light trapped in a clear layer, which none
     // ever is, made the round trip's matrix singular.
-    VectorXd r = VectorXd::Constant(count, 1 - 1e-13), t = VectorXd::Zero(count);
+    VectorXd r = VectorXd::Constant(count, 1 - 1e-15), t = VectorXd::Zero(count);
     for (Eigen::Index j = 0; j < count; ++j)
         if (nodes.s2[j] < thinner * thinner) {
             r[j] = fresnel(n_above, n_below, std::sqrt(1 - nodes.s2[j] / (n_above * n_above)));
@@ -118,9 +118,72 @@ void phase_function(double g, double peak, int moments, const ArrayXd& mu, Matri
     }
 }
 
+// The layer's modes: B = L L', L' C L = Q k^2 Q', in order of growing k.
+struct Modes
+{
+    MatrixXd L, Q;
+    ArrayXd k;
+    VectorXd isotropic; // that light in these modes: Q' L^-1 isotropic
+};
+
+// Isotropic light, `isotropic` in the symmetric scaling, is lost to absorption alone: C isotropic = absorbed.
+// The mode that comes from it has k = 0 without absorption and next to nothing with little, of which the
+// rounding of C would leave no digit. A reflection that takes it to the first axis leaves its row and its
+// column to that identity.
+Modes layer_modes(const MatrixXd& B, const MatrixXd& C, const VectorXd& isotropic, const VectorXd& absorbed)
+{
+    const Eigen::Index count = B.rows();
+    Modes modes{.L = B.llt().matrixL(), .Q = {}, .k = {}, .isotropic = {}};
+    const VectorXd slow = modes.L.triangularView<Eigen::Lower>().solve(isotropic);
+    VectorXd axis = slow / slow.norm();
+    const double sign = axis[0] > 0 ? -1 : 1;
+    axis[0] -= sign;
+    const auto reflect = [&](const MatrixXd& m) -> MatrixXd {
+        return m - axis * (2 / axis.squaredNorm() * axis.transpose() * m);
+    };
+    MatrixXd turned = reflect(reflect(modes.L.transpose() * C * modes.L).transpose());
+    turned.col(0) = reflect(modes.L.transpose() * absorbed) * (sign / slow.norm());
+    turned(0, 0) = isotropic.dot(absorbed) / slow.squaredNorm();
+    turned.row(0) = turned.col(0).transpose();
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(turned);
+    modes.Q = reflect(solver.eigenvectors());
+    modes.k = solver.eigenvalues().array().max(0).sqrt();
+    modes.isotropic = sign * slow.norm() * solver.eigenvectors().row(0).transpose();
+    return modes;
+}
+
+// R + T and R - T of a layer of half the optical thickness `half`.
+struct SumDifference
+{
+    MatrixXd sum, difference;
+    VectorXd lost; // isotropic' (I - R - T)
+};
+
+SumDifference respond(const Modes& modes, double half)
+{
+    const Eigen::Index count = modes.k.size();
+    const MatrixXd I = MatrixXd::Identity(count, count);
+    const ArrayXd tanh = (modes.k * half).tanh();
+    const MatrixXd inverse = modes.L.transpose().triangularView<Eigen::Upper>().solve(modes.Q);
+    const MatrixXd Y = inverse * (modes.k * tanh).matrix().asDiagonal() * inverse.transpose();
+    // tanh(k half) / k of the first mode may be huge; its part of W comes in by the formula of Sherman and
+    // Morrison.
+    ArrayXd tanhc = (modes.k > 1e-8 / half).select(tanh / modes.k.max(1e-300), half);
+    const double first = std::exchange(tanhc[0], 0);
+    const MatrixXd LQ = modes.L * modes.Q;
+    const MatrixXd W = LQ * tanhc.matrix().asDiagonal() * LQ.transpose();
+    MatrixXd inverted = (I + W).llt().solve(I);
+    const VectorXd shifted = inverted * LQ.col(0);
+    inverted -= shifted * shifted.transpose() / (1 / first + LQ.col(0).dot(shifted));
+    const auto reduced = (I + Y).llt();
+    const VectorXd absorbed = inverse * (modes.k * tanh * modes.isotropic.array()).matrix();
+    return {
+        .sum = I - 2 * reduced.solve(Y), .difference = I - 2 * inverted, .lost = 2 * reduced.solve(absorbed)};
+}
+
 // A layer of any thickness in closed form: what doubling converges to when it starts infinitely thin. With
 // sums S and differences D of the two directions, S' = -B D and D' = -C S, B and C symmetric; R + T and R - T
-// follow from the even and the odd solution.
+// follow from the even and the odd solution. Lengths are optical, so that no coefficient is too small.
 Operator layer_operator(const Nodes& nodes, const LayerOptics& layer, int angles)
 {
     const Eigen::Index all = nodes.s2.size();
@@ -134,45 +197,43 @@ Operator layer_operator(const Nodes& nodes, const LayerOptics& layer, int angles
     const auto count = static_cast<Eigen::Index>(inside.size());
 
     const double g = std::clamp(layer.g, -0.99, 0.99);
-    const double sigma_s = layer.sigma_s_reduced / (1 - g);
     const int moments = 2 * angles;
     const double peak = std::pow(g, moments);
-    MatrixXd even, odd;
-    phase_function(g, peak, moments, mu, even, odd);
-    // The quadrature must conserve light exactly: what the even part lacks of 1 goes into its diagonal.
-    even.diagonal().array() += (1 - (even * dmu.matrix()).array()) / dmu;
-
-    const double scattering = sigma_s * (1 - peak), extinction = layer.sigma_a + scattering;
-    const VectorXd scale = (dmu / mu).sqrt();
-    const MatrixXd pair = scale * scale.transpose();
-    const MatrixXd loss = (extinction / mu).matrix().asDiagonal();
-    const MatrixXd B = loss - scattering * odd.cwiseProduct(pair),
-                   C = loss - scattering * even.cwiseProduct(pair);
-
-    Operator result;
-    result.r_top = result.t_down = MatrixXd::Zero(all, all);
+    const double scattering = layer.sigma_s_reduced / (1 - g) * (1 - peak);
+    const double extinction = layer.sigma_a + scattering;
     // Thicker than this nothing changes but rounding; it also stands for an infinite layer.
-    const double half =
-        0.5 * std::min(layer.thickness_mm, 1e7 / std::max(layer.sigma_a + layer.sigma_s_reduced, 1e-30));
-    MatrixXd sum = MatrixXd::Identity(count, count), difference = -sum; // R + T, R - T of an empty layer
-    if (extinction * half > 0) {
-        const MatrixXd L = B.llt().matrixL();
-        const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(L.transpose() * C * L);
-        const ArrayXd k = modes.eigenvalues().array().max(0).sqrt();
-        const ArrayXd kh = k * half;
-        const ArrayXd tanhc = (kh > 1e-8).select(kh.tanh() / kh.max(1e-300), 1.0) * half; // tanh(k h) / k
-        const MatrixXd LQ = L * modes.eigenvectors();
-        const MatrixXd inverse = L.transpose().triangularView<Eigen::Upper>().solve(modes.eigenvectors());
-        const MatrixXd W = LQ * tanhc.matrix().asDiagonal() * LQ.transpose();
-        const MatrixXd Y = inverse * (k * k * tanhc).matrix().asDiagonal() * inverse.transpose();
-        const MatrixXd I = MatrixXd::Identity(count, count);
-        sum = 2 * (I + Y).llt().solve(I) - I;
-        difference = I - 2 * (I + W).llt().solve(I);
+    const double half = extinction > 0 ? 0.5 * std::min(extinction * layer.thickness_mm, 1e12) : 0;
+    SumDifference response{.sum = MatrixXd::Identity(count, count), // an empty layer's
+                           .difference = -MatrixXd::Identity(count, count),
+                           .lost = VectorXd::Zero(count)};
+    if (half > 0) {
+        MatrixXd even, odd;
+        phase_function(g, peak, moments, mu, even, odd);
+        // The quadrature must conserve light exactly: what the even part lacks of 1 goes into its diagonal.
+        even.diagonal().array() += (1 - (even * dmu.matrix()).array()) / dmu;
+        const VectorXd scale = (dmu / mu).sqrt();
+        const MatrixXd pair = scattering / extinction * scale * scale.transpose();
+        const MatrixXd loss = (1 / mu).matrix().asDiagonal();
+        response = respond(layer_modes(loss - odd.cwiseProduct(pair), loss - even.cwiseProduct(pair),
+                                       flux.sqrt(), layer.sigma_a / extinction * scale),
+                           half);
     }
     const VectorXd root = flux.sqrt();
     const MatrixXd to_flux = root * root.cwiseInverse().transpose();
-    result.r_top(inside, inside) = (0.5 * (sum + difference)).cwiseProduct(to_flux);
-    result.t_down(inside, inside) = (0.5 * (sum - difference)).cwiseProduct(to_flux);
+    MatrixXd r = (0.5 * (response.sum + response.difference)).cwiseProduct(to_flux);
+    MatrixXd t = (0.5 * (response.sum - response.difference)).cwiseProduct(to_flux);
+    // What nodes of little weight lose or gain by rounding is put right by what the layer keeps of their
+    // light.
+    for (Eigen::Index j = 0; j < count; ++j)
+        if (const double kept = 1 - response.lost[j] / root[j]; kept > 0.5) {
+            const double factor = kept / (r.col(j).sum() + t.col(j).sum());
+            r.col(j) *= factor;
+            t.col(j) *= factor;
+        }
+    Operator result;
+    result.r_top = result.t_down = MatrixXd::Zero(all, all);
+    result.r_top(inside, inside) = r;
+    result.t_down(inside, inside) = t;
     result.r_bottom = result.r_top;
     result.t_up = result.t_down;
     return result;
@@ -213,7 +274,7 @@ Response adding_doubling(const Stack& stack, const RungOptions& options)
     down /= down.sum();
 
     Response response;
-    response.r = (under[0] * down).sum();
+    response.r = std::clamp((under[0] * down).sum(), 0.0, 1.0); // rounding
     const double specular = (list[0].r_top * down).sum();
     response.r_without_specular = std::max(0.0, response.r - specular);
     double entering = 1 - response.r;
@@ -225,7 +286,7 @@ Response adding_doubling(const Stack& stack, const RungOptions& options)
             response.absorbed.push_back(std::max(0.0, entering - leaving));
         entering = leaving;
     }
-    response.t = std::max(0.0, entering);
+    response.t = std::clamp(entering, 0.0, 1.0);
     return response;
 }
 
