@@ -101,21 +101,24 @@ Operator boundary(const Nodes& nodes, double n_above, double n_below)
 }
 
 // The even and the odd part of the azimuth-averaged phase function between the layer's cosines, sum over m of
-// (2m+1) chi_m P_m(mu_i) P_m(mu_j), with the forward peak g^M taken out (delta-M, Wiscombe 1977).
+// (2m+1) chi_m P_m(mu_i) P_m(mu_j), with the peak |g|^M taken out (delta-M, Wiscombe 1977). Backward
+// scattering is forward scattering with the odd part turned round.
 void phase_function(double g, double peak, int moments, const ArrayXd& mu, MatrixXd& even, MatrixXd& odd)
 {
     const Eigen::Index count = mu.size();
     even = odd = MatrixXd::Zero(count, count);
     ArrayXd p = ArrayXd::Ones(count), before = ArrayXd::Zero(count);
-    double power = 1;
+    double power = 1; // of |g|
     for (int m = 0; m < moments; ++m) {
         const double chi = (power - peak) / (1 - peak);
         (m % 2 == 0 ? even : odd) += (2 * m + 1) * chi * p.matrix() * p.matrix().transpose();
         const ArrayXd next = ((2 * m + 1) * mu * p - m * before) / (m + 1);
         before = p;
         p = next;
-        power *= g;
+        power *= std::abs(g);
     }
+    if (g < 0)
+        odd = -odd;
 }
 
 // The layer's modes: B = L L', L' C L = Q k^2 Q', in order of growing k.
@@ -198,9 +201,8 @@ Operator layer_operator(const Nodes& nodes, const LayerOptics& layer, int angles
 
     const double g = std::clamp(layer.g, -0.99, 0.99);
     const int moments = 2 * angles;
-    const double peak = std::pow(g, moments);
-    const double scattering = layer.sigma_s_reduced / (1 - g) * (1 - peak);
-    const double extinction = layer.sigma_a + scattering;
+    const double peak = std::pow(g, moments), sigma_s = layer.sigma_s_reduced / (1 - g);
+    const double scattering = sigma_s * (1 - peak), extinction = layer.sigma_a + scattering;
     // Thicker than this nothing changes but rounding; it also stands for an infinite layer.
     const double half = extinction > 0 ? 0.5 * std::min(extinction * layer.thickness_mm, 1e12) : 0;
     SumDifference response{.sum = MatrixXd::Identity(count, count), // an empty layer's
@@ -213,10 +215,13 @@ Operator layer_operator(const Nodes& nodes, const LayerOptics& layer, int angles
         even.diagonal().array() += (1 - (even * dmu.matrix()).array()) / dmu;
         const VectorXd scale = (dmu / mu).sqrt();
         const MatrixXd pair = scattering / extinction * scale * scale.transpose();
-        const MatrixXd loss = (1 / mu).matrix().asDiagonal();
-        response = respond(layer_modes(loss - odd.cwiseProduct(pair), loss - even.cwiseProduct(pair),
-                                       flux.sqrt(), layer.sigma_a / extinction * scale),
-                           half);
+        const VectorXd loss = 1 / mu;
+        // A forward peak is no event; a backward one changes the sign of a difference.
+        const double turned = g < 0 ? 2 * peak * sigma_s / extinction : 0;
+        MatrixXd B = -odd.cwiseProduct(pair), C = -even.cwiseProduct(pair);
+        B.diagonal() += (1 + turned) * loss;
+        C.diagonal() += loss;
+        response = respond(layer_modes(B, C, flux.sqrt(), layer.sigma_a / extinction * scale), half);
     }
     const VectorXd root = flux.sqrt();
     const MatrixXd to_flux = root * root.cwiseInverse().transpose();

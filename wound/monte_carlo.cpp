@@ -195,26 +195,46 @@ class Walk
     Photon photon_{};
 };
 
-// A photon makes about as many steps as the layer has optical depths, squared when it gets through; without
-// absorption nothing stops it.
-void refuse_endless_walks(const Stack& stack)
+// Steps of one photon in a layer, within a factor of two or so where it is the first. Without absorption
+// diffuse light fills the tissue evenly, so that its path in a layer is 4 n^2 d whatever the scattering
+// (Blanco & Fournier 2003, "An invariance property of diffusive random walks"). A photon lives until its
+// weight is 1e-3, exp(-7): of a thick layer it sees as much as diffusion with a seventh of the absorption
+// lets it.
+double steps_in(const LayerOptics& layer, double n_above)
 {
-    for (std::size_t i = 0; i < stack.layers.size(); ++i) {
-        const LayerOptics& layer = stack.layers[i];
-        if (layer.sigma_s_reduced * layer.thickness_mm > 1e4 && layer.sigma_a < 1e-6 * layer.sigma_s_reduced)
-            throw cicatrix::InputError(fmt::format("layer {}", i),
-                                       "is too thick and absorbs too little for a photon walk",
-                                       "use adding-doubling");
-    }
+    const double extinction = layer.sigma_a + layer.sigma_s_reduced / (1 - std::clamp(layer.g, -0.99, 0.99));
+    const double reach = std::sqrt(7 / (3 * layer.sigma_a * (layer.sigma_a + layer.sigma_s_reduced)));
+    const double depth = std::min(layer.thickness_mm, reach), index = layer.n / n_above;
+    return extinction > 0 && depth > 0 ? 4 * index * index * depth * extinction : 0;
+}
+
+void refuse_endless_walks(const Stack& stack, std::uint64_t photons)
+{
+    double steps = 0;
+    for (const LayerOptics& layer : stack.layers)
+        steps += steps_in(layer, stack.n_above);
+    const double allowed = most_walk_steps / steps;
+    if (static_cast<double>(photons) <= allowed)
+        return;
+    const std::string what =
+        std::isinf(steps)
+            ? "nothing ends a photon's walk through a layer without absorption and end"
+            : fmt::format("{} photons of about {:.0e} steps each would walk for hours", photons, steps);
+    const double digit = std::pow(10, std::floor(std::log10(allowed))); // the leading one is enough
+    throw cicatrix::InputError("monte-carlo", what,
+                               allowed >= 1000
+                                   ? fmt::format("use {:.0f} photons or fewer, or adding-doubling",
+                                                 std::floor(allowed / digit) * digit)
+                                   : "use adding-doubling");
 }
 
 } // namespace
 
 Response monte_carlo(const Stack& stack, const RungOptions& options)
 {
-    refuse_endless_walks(stack);
     constexpr std::uint64_t per_batch = 10'000;
     const std::uint64_t photons = std::max<std::uint64_t>(options.photons, 1);
+    refuse_endless_walks(stack, photons);
     const std::uint64_t batches = (photons + per_batch - 1) / per_batch;
     std::vector<Tally> tallies(batches);
     std::atomic<std::uint64_t> next{0};
@@ -254,7 +274,7 @@ Response monte_carlo(const Stack& stack, const RungOptions& options)
     const auto n = static_cast<double>(photons);
     Response response;
     response.r_without_specular = total.reflected / n;
-    response.r = response.r_without_specular + specular_reflectance(stack, options);
+    response.r = response.r_without_specular + specular_reflectance(stack, {.incidence = options.incidence});
     response.t = total.transmitted / n;
     for (double absorbed : total.absorbed)
         response.absorbed.push_back(absorbed / n);

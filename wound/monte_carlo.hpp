@@ -6,9 +6,12 @@
 
 namespace wound {
 
+/// Steps that a walk may take: an hour or two of one core.
+inline constexpr double most_walk_steps = 1e11;
+
 /// Response::standard_error is that of r. Anisotropy beyond +-.99 is taken as .99 at the same reduced
-/// scattering. Throws cicatrix::InputError for tissue so thick and so free of absorption that the walk would
-/// hardly end.
+/// scattering. Throws cicatrix::InputError where the photons would take more than about most_walk_steps:
+/// tissue that scatters much and absorbs little.
 Response monte_carlo(const Stack& stack, const RungOptions& options);
 
 } // namespace wound

@@ -130,9 +130,9 @@ Response two_stream(const Stack& stack, Rung rung, double specular, const RungOp
         rest[i] = over(list[i], rest[i + 1]);
 
     Response response;
-    response.r = rest[0].r_top;
+    response.r = std::min(rest[0].r_top, 1.0); // rounding
     response.r_without_specular = std::max(0.0, response.r - specular);
-    response.t = std::min(rest[0].t_down, 1 - response.r); // rounding
+    response.t = rest[0].t_down;
     Element above;
     double entering = 1 - response.r; // net flux downward into the element
     for (std::size_t i = 0; i < list.size(); ++i) {

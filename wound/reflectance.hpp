@@ -78,9 +78,11 @@ std::string_view name(Rung rung);
 /// Throws cicatrix::InputError, naming the known ones.
 Rung rung_named(std::string_view name);
 
-/// For TwoStreamPaper, TwoStream and Calibrated, whatever the input: 0 <= r, t and r + t <= 1; r + t = 1
-/// without absorption; a layer split in two changes nothing. Clamped and Exponential keep the bounds only,
-/// Published keeps nothing.
+/// For TwoStreamPaper, TwoStream and Calibrated, for sigma in 0..1e6, thickness in 0..1e9 or infinite, n
+/// in 1..3, g in -1..1: 0 <= r, t; r + t <= 1 (rounding: 1e-14); r + t = 1 without absorption, within 1e-12;
+/// a layer split in two changes nothing. Clamped and Exponential keep the bounds only, Published keeps
+/// nothing. AddingDoubling keeps
+/// all of it: r + t <= 1 within 1e-11, = 1 without absorption within 1e-12, a split layer within 1e-9.
 Response reflectance(const Stack& stack, Rung rung, const RungOptions& options = {});
 
 /// What the first surface alone reflects.

@@ -1,0 +1,110 @@
+// Random layered tissue over the whole range that the rungs promise to bear, and the corners of that range.
+#pragma once
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "wound/reflectance.hpp"
+
+namespace random_tissue {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr wound::Rung two_streams[] = {wound::Rung::TwoStream, wound::Rung::TwoStreamPaper,
+                                              wound::Rung::Calibrated};
+inline constexpr wound::Rung bounded[] = {wound::Rung::TwoStream, wound::Rung::TwoStreamPaper,
+                                          wound::Rung::Calibrated, wound::Rung::Clamped,
+                                          wound::Rung::Exponential};
+
+/// All numbers are floats, so that single and double precision see the same tissue.
+class Draw
+{
+  public:
+    explicit Draw(unsigned seed) : random_(seed) {}
+
+    double uniform(double low, double high)
+    {
+        return static_cast<float>(std::uniform_real_distribution(low, high)(random_));
+    }
+    int integer(int low, int high) { return std::uniform_int_distribution(low, high)(random_); }
+    /// Log-uniform, with zero and the upper end drawn often.
+    double coefficient(double high)
+    {
+        const int corner = integer(0, 9);
+        if (corner < 2)
+            return corner == 0 ? 0 : high;
+        return static_cast<float>(std::exp(uniform(std::log(1e-9), std::log(high))));
+    }
+    double index() { return integer(0, 3) == 0 ? integer(1, 3) : uniform(1, 3); }
+    wound::LayerOptics layer()
+    {
+        const double g = integer(0, 4) == 0 ? integer(-1, 1) : uniform(-1, 1);
+        const double thickness = integer(0, 9) == 0 ? infinity : coefficient(1e9);
+        return {coefficient(1e6), coefficient(1e6), g, index(), thickness};
+    }
+    wound::Stack stack(int most_layers = 5)
+    {
+        wound::Stack result{.layers = {}, .n_above = index(), .n_below = index()};
+        for (int i = integer(1, most_layers); i > 0; --i)
+            result.layers.push_back(layer());
+        return result;
+    }
+    std::size_t place(const wound::Stack& stack)
+    {
+        return static_cast<std::size_t>(integer(0, static_cast<int>(stack.layers.size()) - 1));
+    }
+    /// The stack with one layer cut at a random depth.
+    wound::Stack split(wound::Stack stack)
+    {
+        const auto at = stack.layers.begin() + static_cast<std::ptrdiff_t>(place(stack));
+        const double part = uniform(1e-3, 1 - 1e-3);
+        wound::LayerOptics upper = *at;
+        upper.thickness_mm *= part;
+        at->thickness_mm *= 1 - part;
+        stack.layers.insert(at, upper);
+        return stack;
+    }
+
+  private:
+    std::mt19937 random_;
+};
+
+/// One and two layers between media of every kind, with everything at an end of its range, at the least
+/// number above zero (`tiny`), or just beside a special case.
+inline std::vector<wound::Stack> corners(double tiny)
+{
+    std::vector<wound::Stack> result;
+    const double n_close = static_cast<float>(1 + 2e-6), n_skin = 1.4f;
+    for (double a : {0., tiny, 1e6})
+        for (double s : {0., tiny, 1e6})
+            for (double g : {-1., 0., tiny, 1.})
+                for (double n : {1., n_close, 3.})
+                    for (double d : {0., tiny, 1e9, infinity})
+                        for (double above : {1., n_skin, 3.})
+                            for (double below : {1., n_close, 3.}) {
+                                const wound::LayerOptics first{a, s, g, n, d}, second{s, a, g, n_skin, d};
+                                result.push_back({{first}, above, below});
+                                result.push_back({{first, second}, above, below});
+                            }
+    return result;
+}
+
+inline wound::Stack without_absorption(wound::Stack stack)
+{
+    for (wound::LayerOptics& layer : stack.layers)
+        layer.sigma_a = 0;
+    return stack;
+}
+
+inline std::string text(const wound::Stack& stack)
+{
+    std::string result = fmt::format("above {}", stack.n_above);
+    for (const wound::LayerOptics& layer : stack.layers)
+        result += fmt::format(" | a {} s {} g {} n {} d {}", layer.sigma_a, layer.sigma_s_reduced, layer.g,
+                              layer.n, layer.thickness_mm);
+    return result + fmt::format(" | below {}", stack.n_below);
+}
+
+} // namespace random_tissue
