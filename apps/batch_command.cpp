@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "apps/batch.hpp"
+#include "apps/number_option.hpp"
 #include "apps/scene_options.hpp"
 #include "engine/file.hpp"
 #include "engine/image_io.hpp"
@@ -123,9 +124,12 @@ void add_batch_command(CLI::App& program)
     CLI::Option* random = command
                               ->add_option("--random", options->random.count,
                                            "Draw nothing: make a table of N random variations")
-                              ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}))
+                              ->transform(whole_number_from(1, 1e6))
                               ->type_name("N");
-    command->add_option("--seed", options->random.seed, "Of the random variations")->needs(random);
+    command->add_option("--seed", options->random.seed, "Of the random variations")
+        ->transform(whole_number_from(0, 4294967295))
+        ->capture_default_str()
+        ->needs(random);
     command->add_option("--heads", options->random.heads, "Heads to choose from")
         ->needs(random)
         ->type_name("FILE.glb");

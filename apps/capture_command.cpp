@@ -4,6 +4,7 @@
 
 #include "apps/capture.hpp"
 #include "apps/labels.hpp"
+#include "apps/number_option.hpp"
 #include "apps/output.hpp"
 #include "apps/scene_options.hpp"
 
@@ -82,11 +83,11 @@ void add_capture_command(CLI::App& program)
         ->add_option("--orbit", options->capture.orbit,
                      "So many pictures around the head instead of one per day; the day moves from the first "
                      "to the last of --days meanwhile")
-        ->check(CLI::Range(1, 10000))
+        ->transform(whole_number_from(1, 10000))
         ->type_name("N");
     command->add_option("--orbit-degrees", options->capture.orbit_deg, "How far around")
         ->type_name("DEGREES")
-        ->check(CLI::Range(-3600.0, 3600.0))
+        ->check(number_from(-3600, 3600))
         ->capture_default_str();
     command
         ->add_option(
@@ -96,11 +97,11 @@ void add_capture_command(CLI::App& program)
         ->type_name("FILE.mp4");
     command->add_option("--duration", options->capture.duration_s, "Of the film")
         ->type_name("SECONDS")
-        ->check(CLI::Range(0.01, 3600.0))
+        ->check(number_from(0.01, 3600))
         ->capture_default_str();
     command->add_option("--fps", options->capture.fps, "Its frames per second")
         ->type_name("N")
-        ->check(CLI::Range(1.0, 240.0))
+        ->check(number_from(1, 240))
         ->capture_default_str();
     command->add_flag("--transparent", options->capture.transparent,
                       "Nothing behind the head: PNG with straight alpha, EXR premultiplied");

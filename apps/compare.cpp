@@ -10,6 +10,7 @@
 
 #include "apps/contact_sheet.hpp"
 #include "apps/measurement.hpp"
+#include "apps/number_option.hpp"
 #include "apps/output.hpp"
 #include "apps/progress.hpp"
 #include "apps/renderer.hpp"
@@ -285,7 +286,7 @@ void add_compare_command(CLI::App& program)
         ->delimiter(',')
         ->type_name("NAMES");
     command->add_option("--rounds", options->rounds, "How often each is drawn to measure its cost")
-        ->check(CLI::Range(1, 1000))
+        ->transform(whole_number_from(1, 1000))
         ->capture_default_str();
     command->add_option("--out", options->out, "Folder for compare.png and compare.json")
         ->capture_default_str()

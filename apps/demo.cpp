@@ -1,6 +1,7 @@
 #include "apps/demo.hpp"
 
 #include "apps/demo_window.hpp"
+#include "apps/number_option.hpp"
 
 namespace app {
 
@@ -12,7 +13,7 @@ void add_demo_command(CLI::App& program)
                                        "let the days go by");
     add_scene_options(*command, *options);
     command->add_option("--scale", options->scale, "Size of text and controls; without it, the screen's")
-        ->check(CLI::Range(0.5, 4.0));
+        ->check(number_from(0.5, 4));
     command
         ->add_option("--screenshot", options->screenshot,
                      "Save what the window shows once it is complete, and end")

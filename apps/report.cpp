@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "apps/machine.hpp"
+#include "apps/number_option.hpp"
 #include "apps/output.hpp"
 #include "apps/progress.hpp"
 #include "apps/renderer.hpp"
@@ -210,7 +211,7 @@ void add_report_command(CLI::App& program)
         ->add_option(
             "--frames", options->frames,
             "Frames measured of each case, after a warm-up (default 60), or of each step of a sweep (15)")
-        ->check(CLI::Range(5, 10000))
+        ->transform(whole_number_from(5, 10000))
         ->type_name("N");
     command->add_option("--out", options->out, "Folder for report.html, report.json and trace.json")
         ->capture_default_str()

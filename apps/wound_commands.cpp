@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
+#include "apps/number_option.hpp"
 #include "apps/output.hpp"
 #include "apps/scene_options.hpp"
 #include "apps/wound_page.hpp"
@@ -169,13 +170,13 @@ void add_wound_command(CLI::App& program)
     add_hint_options(*command, options->hints);
     command->add_option("--width-mm", options->width_mm, "The wound's longer side on the skin, mm")
         ->capture_default_str()
-        ->check(CLI::Range(0.5, 200.0));
+        ->check(number_from(0.5, 200));
     command
         ->add_option(
             "--spacing", options->spacing,
             "Of the lines that give control points, as a share of the patch; 0: from the border's curvature")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 0.5));
+        ->check(number_from(0, 0.5));
     command->add_option("--model", options->model, "How it closes")
         ->capture_default_str()
         ->check(CLI::IsMember({"face", "contraction"}));

@@ -1,8 +1,10 @@
 // The one exception for what the machine or the user's files do wrong. It lives in wound/ because wound/
 // depends on nothing else of ours and everything else may depend on wound/.
 #pragma once
+#include <cstdlib>
 #include <fmt/format.h>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace cicatrix {
@@ -17,5 +19,16 @@ class InputError : public std::runtime_error
     {
     }
 };
+
+/// A number as people write it, for messages: 0.5, 4294967295, 1e10.
+inline std::string plain(double number)
+{
+    std::string text = fmt::format("{:g}", number);
+    if (std::strtod(text.c_str(), nullptr) != number)
+        return fmt::format("{}", number);
+    if (const std::size_t exponent = text.find("e+"); exponent != std::string::npos)
+        text.erase(exponent + 1, text[exponent + 2] == '0' ? 2 : 1);
+    return text;
+}
 
 } // namespace cicatrix
