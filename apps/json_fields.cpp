@@ -3,29 +3,10 @@
 #include <cmath>
 #include <fmt/ranges.h>
 
-#include "engine/file.hpp"
 #include "wound/input_error.hpp"
 
 namespace app {
 using nlohmann::json;
-
-json read_json(const std::filesystem::path& path)
-{
-    constexpr std::size_t largest = 64u << 20;
-    const std::vector<std::uint8_t> bytes = engine::read_file(path, largest);
-    try {
-        return json::parse(bytes);
-    } catch (const json::exception& error) // of syntax, or of a number too large for a double
-    {
-        std::string message =
-            error.what(); // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
-        if (const auto bracket = message.find("] "); bracket != std::string::npos)
-            message.erase(0, bracket + 2);
-        for (char& c : message)
-            c = c == '\n' ? ' ' : c;
-        throw cicatrix::InputError(path.string(), "is not valid JSON: " + message, "mend the file there");
-    }
-}
 
 Fields::Fields(const json& object, std::string where) : object_(object), where_(std::move(where))
 {
@@ -57,7 +38,8 @@ double Fields::number(const std::string& name, double fallback, double low, doub
         return fallback;
     const double number = value->is_number() ? value->get<double>() : NAN;
     if (!(number >= low && number <= high)) // also false for NaN
-        fail(name, "is " + value->dump(), fmt::format("give a number from {:g} to {:g}", low, high));
+        fail(name, "is " + value->dump(),
+             fmt::format("give a number from {} to {}", cicatrix::plain(low), cicatrix::plain(high)));
     return number;
 }
 
@@ -105,7 +87,8 @@ std::string Fields::choice(const std::string& name, const std::string& fallback,
 void Fields::check_numbers(const std::string& name, const json& value, std::size_t count, double low,
                            double high) const
 {
-    const std::string cure = fmt::format("give an array of {} numbers from {:g} to {:g}", count, low, high);
+    const std::string cure = fmt::format("give an array of {} numbers from {} to {}", count,
+                                         cicatrix::plain(low), cicatrix::plain(high));
     if (!value.is_array() || value.size() != count)
         fail(name, "is " + value.dump(), cure);
     for (const json& element : value)

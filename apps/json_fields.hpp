@@ -1,15 +1,15 @@
 // Strict reading of one JSON object: each field is asked for by name, wrong types and out-of-range numbers
 // are errors that name file and field, and what was not asked for is an error too.
 #pragma once
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
+#include "wound/input_file.hpp"
+
 namespace app {
 
-/// Parses a file; throws cicatrix::InputError naming the file and, for broken JSON, the line.
-nlohmann::json read_json(const std::filesystem::path& path);
+using cicatrix::read_json;
 
 class Fields
 {

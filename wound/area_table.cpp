@@ -4,11 +4,12 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <map>
 #include <optional>
+#include <sstream>
 
 #include "wound/input_error.hpp"
+#include "wound/input_file.hpp"
 
 namespace wound {
 
@@ -184,9 +185,9 @@ AreaSeries series_of(const Rows& rows, const Reader& reader)
 
 std::vector<AreaSeries> read_area_table(const std::filesystem::path& file)
 {
-    std::ifstream text(file);
-    if (!text)
-        throw cicatrix::InputError(file.string(), "cannot be read", "give a CSV file of days and areas");
+    constexpr std::size_t largest = 64u << 20;
+    const auto bytes = cicatrix::read_file(file, largest);
+    std::istringstream text(std::string(bytes.begin(), bytes.end()));
     return read_area_table(text, file.string());
 }
 

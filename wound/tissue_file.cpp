@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/ranges.h>
-#include <fstream>
 #include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "wound/chromophores.hpp"
 #include "wound/input_error.hpp"
+#include "wound/input_file.hpp"
 
 namespace wound {
 
 using cicatrix::InputError;
+using cicatrix::plain;
 using nlohmann::json;
 
 namespace {
@@ -53,11 +54,11 @@ class Fields
     {
         if (!value.is_number())
             throw InputError(where(field), "not a number",
-                             fmt::format("give a number from {} to {}", low, high));
+                             fmt::format("give a number from {} to {}", plain(low), plain(high)));
         const double x = value.get<double>();
         if (!(x >= low && x <= high))
-            throw InputError(where(field), fmt::format("{} is out of range", x),
-                             fmt::format("give a number from {} to {}", low, high));
+            throw InputError(where(field), plain(x) + " is out of range",
+                             fmt::format("give a number from {} to {}", plain(low), plain(high)));
         return x;
     }
 
@@ -207,13 +208,7 @@ SkinLayers parse_tissue(const json& document, std::string_view file)
 
 SkinLayers read_tissue(const std::filesystem::path& path)
 {
-    std::ifstream stream(path);
-    if (!stream)
-        throw InputError(path.string(), "cannot be opened", "check the name and the permissions");
-    const json document = json::parse(stream, nullptr, false);
-    if (document.is_discarded())
-        throw InputError(path.string(), "not valid JSON", "check brackets, quotes and commas");
-    return parse_tissue(document, path.string());
+    return parse_tissue(cicatrix::read_json(path), path.string());
 }
 
 } // namespace wound
