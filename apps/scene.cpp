@@ -111,7 +111,10 @@ LightScene read_light(const json& object, const std::string& where)
     light.falloff = fields.boolean("falloff", light.falloff);
     light.distance_m = fields.number("distance_m", light.distance_m, 0, 100);
     light.color = fields.numbers<3>("color", light.color, 0, 1000);
-    light.intensity = fields.number("intensity", light.intensity, 0, 1e6);
+    light.intensity = fields.number("intensity", light.intensity, 0, 1e4);
+    if (const double brightest = light.intensity * *std::ranges::max_element(light.color); brightest > 1e4)
+        fields.fail("intensity", fmt::format("times the color is {}", cicatrix::plain(brightest)),
+                    "keep that at most 1e4");
     fields.finish();
     return light;
 }
