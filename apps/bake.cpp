@@ -1,35 +1,25 @@
 #include "apps/bake.hpp"
-#include "apps/output.hpp"
 
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 #include <iostream>
 
 #include "apps/bake_pictures.hpp"
+#include "apps/number_option.hpp"
+#include "apps/output.hpp"
 #include "apps/progress.hpp"
 #include "engine/image_io.hpp"
 #include "passes/reflectance_table.hpp"
 #include "wound/healing.hpp"
 #include "wound/input_error.hpp"
 #include "wound/shading.hpp"
-#include "wound/tissue_file.hpp"
 
 namespace app {
 
 using namespace wound;
 using nlohmann::ordered_json;
-
-HealingTissue healing_tissue_or_file(const std::string& name)
-{
-    if (const auto preset = healing_tissue_named(name))
-        return *preset;
-    SkinLayers tissue = read_tissue(name);
-    if (channel_weights(tissue.channels()).empty())
-        throw cicatrix::InputError(name, fmt::format("has {} channels", tissue.channels()),
-                                   fmt::format("a colour takes 1, 3 or {}", wavelength_count));
-    return tissue;
-}
 
 TissueDay tissue_on(const HealingTissue& tissue, shared::uint part, double day)
 {
@@ -40,32 +30,46 @@ TissueDay tissue_on(const HealingTissue& tissue, shared::uint part, double day)
 
 namespace {
 
+// Days of the strip: close together at first, up to the last of the table.
+std::vector<double> days_until(double last_day)
+{
+    std::vector<double> days;
+    for (const double day : {0, 1, 3, 6, 9, 12, 15, 18, 21, 24, 27, 30, 60, 90, 180, 365, 1000})
+        if (day < last_day)
+            days.push_back(day);
+    days.push_back(last_day);
+    return days;
+}
+
 // Figure 6 of the paper: the colour alone. The printed blend of the printed reflectance beside ours, in the
-// same wound.
-cv::Mat3b strip(const cv::Mat3f& table, const shared::LutAxes& axes)
+// same wound. The open bed is there until it is closed.
+cv::Mat3b strip(const std::string& title, const cv::Mat3f& table, const shared::LutAxes& axes)
 {
     const Color wound_color(.30, .035, .03);
     const Color skin_color = passes::sample_table(table, axes, shared::LUT_OPEN, 0, 0);
     constexpr double depth_mm = 1;
     const Healing healing;
-    std::vector<double> days;
-    for (double day : {0, 1, 3, 6, 9, 12, 15, 18, 21, 24, 27, 30, 60, 90, 180, 365})
-        if (day <= std::max(30.0, double(axes.last_day)))
-            days.push_back(day);
-    ColorRow published{"published", {}}, corrected{"corrected", {}}, bed{"open bed, optics", {}},
-        ring{"covered, optics", {}};
+    const double closure = closure_day(healing.curve);
+    const std::vector<double> days = days_until(axes.last_day);
+    ColorRow published{"published", "eq. (4) as printed, Table 1", {}},
+        corrected{"corrected", "eq. (4) ending at the skin", {}},
+        open{"open bed", fmt::format("its tissue, until day {:.1f}", closure), {}},
+        covered{"covered", "new epithelium, then scar", {}};
     for (const double day : days) {
         const HealingState state = healing_at(healing, day);
         const SkinLayers printed = layers_at(restored_skin(table1(), state.depth_scale), depth_mm);
-        bed.colors.push_back(passes::sample_table(table, axes, shared::LUT_OPEN, depth_mm, day));
-        ring.colors.push_back(passes::sample_table(table, axes, shared::LUT_COVERED, depth_mm, day));
+        const Color bed = passes::sample_table(table, axes, shared::LUT_OPEN, depth_mm, day);
+        open.colors.push_back(day <= closure ? std::optional(bed) : std::nullopt);
+        covered.colors.push_back(passes::sample_table(table, axes, shared::LUT_COVERED, depth_mm, day));
         published.colors.push_back(blend(BlendModel::Published, wound_color,
                                          tissue_color(printed, Rung::Published), skin_color,
                                          state.recovery_ratio));
         corrected.colors.push_back(
-            blend(BlendModel::Corrected, wound_color, bed.colors.back(), skin_color, state.recovery_ratio));
+            blend(BlendModel::Corrected, wound_color, bed, skin_color, state.recovery_ratio));
     }
-    return draw_strip(days, {published, corrected, bed, ring});
+    return draw_strip(
+        fmt::format("{}: a wound {:g} mm deep, day by day (a gap: the step changes)", title, depth_mm), days,
+        {published, corrected, open, covered});
 }
 
 } // namespace
@@ -97,19 +101,24 @@ cv::Mat3f kept_table(const passes::LutRows& rows, std::uint32_t width, Rung rung
     return passes::cached_reflectance_table(cache_folder(), rows.days, width, rung, options);
 }
 
-void bake(const BakeOptions& options, std::ostream& out)
+void bake(const BakeOptions& options, std::ostream& out, std::ostream& notes)
 {
     const HealingTissue tissue = healing_tissue_or_file(options.tissue);
     const passes::LutRows rows = passes::lut_rows(tissue, Healing{}, options.height, options.last_day);
     make_folder(options.out);
+    if (options.rung == Rung::Published)
+        if (const auto note = domain_note(layers_of(tissue)))
+            fmt::print(notes, "note: {}\n", *note);
+    const std::string title =
+        fmt::format("{}, {}", std::filesystem::path(options.tissue).filename().string(), name(options.rung));
     const cv::Mat3f table = kept_table(rows, options.width, options.rung, options.rung_options);
     const auto height = static_cast<int>(options.height);
     const cv::Mat3f open = table.rowRange(0, height), covered = table.rowRange(height, 2 * height);
     engine::write_exr(options.out / "open_bed.exr", open);
     engine::write_exr(options.out / "covered.exr", covered);
     engine::write_png(options.out / "tables.png",
-                      draw_tables({{"open bed", open}, {"covered", covered}}, rows.axes));
-    engine::write_png(options.out / "color_over_days.png", strip(table, rows.axes));
+                      draw_tables(title, {{"open bed", open}, {"covered", covered}}, rows.axes));
+    engine::write_png(options.out / "color_over_days.png", strip(title, table, rows.axes));
     fmt::print(out, "{}: open_bed.exr, covered.exr ({} x {}, {}), tables.png, color_over_days.png\n",
                options.out.string(), options.width, options.height, name(options.rung));
 }
@@ -137,20 +146,21 @@ void add_bake_command(CLI::App& app)
         "bake", "Write the reflectance table and the colour over days; compare the models");
     auto options = std::make_shared<BakeOptions>();
     auto comparing = std::make_shared<bool>(false), calibrating = std::make_shared<bool>(false);
-    command->add_option("--tissue", options->tissue, "table1, light, medium, dark or a tissue file")
-        ->capture_default_str();
-    command->add_option_function<std::string>(
-        "--model", [options](const std::string& text) { options->rung = rung_named(text); },
-        "Reflectance model (default adding-doubling)");
+    command
+        ->add_option("--tissue", options->tissue,
+                     fmt::format("Tissue file, or one of {}", fmt::join(healing_tissue_names(), ", ")))
+        ->capture_default_str()
+        ->type_name("TISSUE.json");
+    add_model_option(*command, options->rung);
     command->add_option_function<std::string>(
         "--size", [options](const std::string& text) { read_size(text, *options); },
         "Texels over depth x days (default 64x64)");
     command->add_option("--last-day", options->last_day, "Last day of the table")
-        ->check(CLI::Range(1.0, 3650.0))
+        ->check(number_from(1, 3650))
         ->capture_default_str();
     command->add_option("--out", options->out, "Folder to write")->capture_default_str();
     command->add_option("--photons", options->rung_options.photons, "Photons per colour of the reference")
-        ->check(CLI::Range(100.0, 1e10))
+        ->transform(whole_number_from(100, 1e10))
         ->capture_default_str();
     command->add_flag("--compare", *comparing, "Measure every model against the photon walk");
     command->add_flag("--calibrate", *calibrating, "Fit the model 'calibrated' to the photon walk")
@@ -162,7 +172,7 @@ void add_bake_command(CLI::App& app)
         else if (*comparing)
             compare(*options, std::cout);
         else
-            bake(*options, std::cout);
+            bake(*options, std::cout, std::cerr);
     });
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/tissue_choice.hpp"
 #include "passes/reflectance_lut.hpp"
 #include "wound/reflectance.hpp"
 #include "wound/skin_presets.hpp"
@@ -28,12 +29,9 @@ struct BakeOptions
     wound::RungOptions rung_options{.angles = 4, .photons = 200'000};
 };
 
-/// A preset's name or a tissue file; InputError unless its channels are one, three or a spectrum.
-wound::HealingTissue healing_tissue_or_file(const std::string& name);
-
 /// Writes the tables (EXR and a labelled picture) and the strip of colours over days; says what it wrote on
-/// `out`. Numerical rungs keep their tables in cache_folder().
-void bake(const BakeOptions& options, std::ostream& out);
+/// `out`, and on `notes` where the model does not hold. Numerical rungs keep their tables in cache_folder().
+void bake(const BakeOptions& options, std::ostream& out, std::ostream& notes);
 
 /// The table of any rung, from cache_folder() or baked and kept there, with progress on a terminal.
 cv::Mat3f kept_table(const passes::LutRows& rows, std::uint32_t width, wound::Rung rung,

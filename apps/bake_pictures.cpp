@@ -9,7 +9,7 @@ namespace app {
 
 namespace {
 
-const cv::Scalar ink(40, 40, 40), paper(255, 255, 255), faint(215, 215, 215);
+const cv::Scalar ink(40, 40, 40), faint(215, 215, 215);
 
 void write(cv::Mat3b& picture, const std::string& text, cv::Point at, double scale = 0.4)
 {
@@ -31,6 +31,12 @@ cv::Scalar swatch(const wound::Color& color)
     return {static_cast<double>(rgb[0]), static_cast<double>(rgb[1]), static_cast<double>(rgb[2])};
 }
 
+int width_of(const std::string& text, double scale = 0.4)
+{
+    int baseline = 0;
+    return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale, 1, &baseline).width;
+}
+
 // Powers of ten that enclose the values.
 struct LogAxis
 {
@@ -50,54 +56,115 @@ LogAxis log_axis(const std::vector<PlotPoint>& points, Get get)
     return axis;
 }
 
+struct Tick
+{
+    double value;
+    int pixel;
+};
+// Those of `values` below `last`, and both ends; without what lies closer than `gap` pixels to one before it
+// or to the end.
+template <typename Place>
+std::vector<Tick> ticks(std::initializer_list<double> values, double last, int gap, Place place)
+{
+    std::vector<Tick> result;
+    const Tick end{last, place(last)};
+    for (const double value : values)
+        if (const Tick tick{value, place(value)}; value < last && end.pixel - tick.pixel >= gap &&
+                                                  (result.empty() || tick.pixel - result.back().pixel >= gap))
+            result.push_back(tick);
+    result.push_back(end);
+    return result;
+}
+
+void draw_table(cv::Mat3b& picture, cv::Rect area, const cv::Mat3f& table, const shared::LutAxes& axes)
+{
+    cv::resize(encoded(table), picture(area), area.size(), 0, 0, cv::INTER_NEAREST);
+    const auto along = [&](double value, int texels, float last, int length) {
+        const float share =
+            shared::lut_coordinate(static_cast<float>(value), static_cast<float>(texels), last);
+        return static_cast<int>(share * static_cast<float>(length));
+    };
+    for (const auto& [depth, x] : ticks({0, .1, .5, 1, 2, 4}, axes.deepest_mm, 34, [&](double value) {
+             return area.x + along(value, table.cols, axes.deepest_mm, area.width);
+         }))
+    {
+        cv::line(picture, {x, area.br().y}, {x, area.br().y + 5}, ink);
+        const std::string text = fmt::format("{:.3g}", depth);
+        write(picture, text, {x - width_of(text) / 2, area.br().y + 18});
+    }
+    write(picture, "depth of the injury, mm", {area.x + 70, area.br().y + 40});
+    for (const auto& [day, y] :
+         ticks({0, 1, 3, 7, 14, 30, 60, 120, 365, 1000}, axes.last_day, 12,
+               [&](double value) { return area.y + along(value, table.rows, axes.last_day, area.height); }))
+    {
+        cv::line(picture, {area.x - 5, y}, {area.x, y}, ink);
+        const std::string text = fmt::format("{:g}", day);
+        write(picture, text, {area.x - 9 - width_of(text), y + 4});
+    }
+}
+
+// The first place beside a point where its name meets none of `taken`; the first of all when there is none.
+cv::Rect place_name(const std::string& name, cv::Point point, const std::vector<cv::Rect>& taken)
+{
+    const cv::Size size(width_of(name, 0.42), 13);
+    const int right = point.x + 9, left = point.x - 9 - size.width, middle = point.x - size.width / 2;
+    const cv::Point corners[] = {{right, point.y - 17}, {right, point.y + 4},   {left, point.y - 17},
+                                 {left, point.y + 4},   {middle, point.y - 21}, {middle, point.y + 9}};
+    for (const cv::Point corner : corners) {
+        const cv::Rect rect(corner, size);
+        if (std::ranges::none_of(taken, [&](const cv::Rect& other) { return (rect & other).area() > 0; }))
+            return rect;
+    }
+    return {corners[0], size};
+}
+
 } // namespace
 
-cv::Mat3b draw_tables(const std::vector<std::pair<std::string, cv::Mat3f>>& tables,
+cv::Mat3b draw_tables(const std::string& title, const std::vector<std::pair<std::string, cv::Mat3f>>& tables,
                       const shared::LutAxes& axes)
 {
-    constexpr int side = 320, left = 60, top = 40, bottom = 60, gap = 60;
+    constexpr int side = 320, left = 60, top = 66, bottom = 60, gap = 60;
     const int count = static_cast<int>(tables.size());
-    cv::Mat3b picture(top + side + bottom, left + count * (side + gap), cv::Vec3b(255, 255, 255));
+    cv::Mat3b picture(top + side + bottom, std::max(left + count * (side + gap), width_of(title, 0.5) + 16),
+                      cv::Vec3b(255, 255, 255));
+    write(picture, title, {8, 22}, 0.5);
     for (int i = 0; i < count; ++i) {
         const auto& [name, table] = tables[static_cast<std::size_t>(i)];
         const cv::Rect area(left + i * (side + gap), top, side, side);
-        cv::resize(encoded(table), picture(area), area.size(), 0, 0, cv::INTER_NEAREST);
         write(picture, name, {area.x, top - 14}, 0.5);
-        for (float depth : {0.f, .1f, .5f, 1.f, 2.f, 4.f})
-            if (depth <= axes.deepest_mm) {
-                const float u =
-                    shared::lut_coordinate(depth, static_cast<float>(table.cols), axes.deepest_mm);
-                const int x = area.x + static_cast<int>(u * side);
-                cv::line(picture, {x, area.br().y}, {x, area.br().y + 5}, ink);
-                write(picture, fmt::format("{:g}", depth), {x - 8, area.br().y + 18});
-            }
-        write(picture, "depth of the injury, mm", {area.x + 70, area.br().y + 40});
-        for (float day : {0.f, 1.f, 3.f, 7.f, 14.f, 30.f, 60.f, 120.f, 365.f})
-            if (day <= axes.last_day) {
-                const float v = shared::lut_coordinate(day, static_cast<float>(table.rows), axes.last_day);
-                const int y = area.y + static_cast<int>(v * side);
-                cv::line(picture, {area.x - 5, y}, {area.x, y}, ink);
-                write(picture, fmt::format("{:g}", day), {area.x - 30, y + 4});
-            }
+        draw_table(picture, area, table, axes);
     }
     write(picture, "day", {8, top - 14});
     return picture;
 }
 
-cv::Mat3b draw_strip(const std::vector<double>& days, const std::vector<ColorRow>& rows)
+cv::Mat3b draw_strip(const std::string& title, const std::vector<double>& days,
+                     const std::vector<ColorRow>& rows)
 {
-    constexpr int width = 56, height = 64, left = 190, top = 34;
+    constexpr int width = 56, height = 64, left = 230, top = 62, gap = 10;
+    std::vector<int> x{left};
+    for (std::size_t i = 1; i < days.size(); ++i) {
+        const bool changes = i > 1 && days[i] - days[i - 1] != days[i - 1] - days[i - 2];
+        x.push_back(x.back() + width + (changes ? gap : 0));
+    }
     cv::Mat3b picture(top + static_cast<int>(rows.size()) * (height + 8),
-                      left + static_cast<int>(days.size()) * width + 10, cv::Vec3b(255, 255, 255));
-    write(picture, "day", {10, 22});
+                      std::max(x.back() + width + 10, width_of(title, 0.5) + 20), cv::Vec3b(255, 255, 255));
+    write(picture, title, {10, 22}, 0.5);
+    write(picture, "day", {10, 50});
     for (std::size_t i = 0; i < days.size(); ++i)
-        write(picture, fmt::format("{:g}", days[i]), {left + static_cast<int>(i) * width + 16, 22});
+        write(picture, fmt::format("{:g}", days[i]), {x[i] + 16, 50});
     for (std::size_t r = 0; r < rows.size(); ++r) {
         const int y = top + static_cast<int>(r) * (height + 8);
-        write(picture, rows[r].name, {10, y + height / 2 + 4});
-        for (std::size_t i = 0; i < rows[r].colors.size(); ++i)
-            cv::rectangle(picture, cv::Rect(left + static_cast<int>(i) * width, y, width, height),
-                          swatch(rows[r].colors[i]), cv::FILLED);
+        write(picture, rows[r].name, {10, y + height / 2 - 5}, 0.45);
+        write(picture, rows[r].detail, {10, y + height / 2 + 14});
+        for (std::size_t i = 0; i < rows[r].colors.size(); ++i) {
+            const cv::Rect place(x[i], y, width, height);
+            if (const auto& color = rows[r].colors[i])
+                cv::rectangle(picture, place, swatch(*color), cv::FILLED);
+            else
+                write(picture, "closed", {place.x + 6, y + height / 2 + 4});
+            cv::rectangle(picture, place, faint); // white swatches are seen to be there
+        }
     }
     return picture;
 }
@@ -123,10 +190,15 @@ cv::Mat3b draw_plot(const std::vector<PlotPoint>& points, const std::string& x_l
         cv::line(picture, foot, {left + width, foot.y}, faint);
         write(picture, fmt::format("{:g}", std::pow(10, power)), {foot.x - 60, foot.y + 4});
     }
+    std::vector<cv::Rect> taken;
     for (const PlotPoint& point : points) {
         const cv::Point at = place(point.x, point.y);
         cv::circle(picture, at, 5, cv::Scalar(170, 40, 40), cv::FILLED, cv::LINE_AA);
-        write(picture, point.name, at + cv::Point(9, -6), 0.42);
+        taken.emplace_back(at - cv::Point(6, 6), cv::Size(12, 12));
+    }
+    for (const PlotPoint& point : points) {
+        taken.push_back(place_name(point.name, place(point.x, point.y), taken));
+        write(picture, point.name, {taken.back().x, taken.back().y + 10}, 0.42);
     }
     write(picture, x_label, {left + width / 2 - 110, top + height + 44}, 0.45);
     write(picture, y_label, {10, 22}, 0.45);

@@ -2,6 +2,7 @@
 // are written.
 #pragma once
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,23 +12,24 @@
 namespace app {
 
 /// Tables side by side under their names, with depth (mm) and day along the axes.
-cv::Mat3b draw_tables(const std::vector<std::pair<std::string, cv::Mat3f>>& tables,
+cv::Mat3b draw_tables(const std::string& title, const std::vector<std::pair<std::string, cv::Mat3f>>& tables,
                       const shared::LutAxes& axes);
 
 struct ColorRow
 {
-    std::string name;
-    std::vector<wound::Color> colors;
+    std::string name, detail;                        // a line each
+    std::vector<std::optional<wound::Color>> colors; // one for each day; without one, "closed"
 };
-/// Rows of swatches under the days they belong to.
-cv::Mat3b draw_strip(const std::vector<double>& days, const std::vector<ColorRow>& rows);
+/// Rows of swatches under the days they belong to, with a gap where the step of the days changes.
+cv::Mat3b draw_strip(const std::string& title, const std::vector<double>& days,
+                     const std::vector<ColorRow>& rows);
 
 struct PlotPoint
 {
     std::string name;
     double x, y; // > 0
 };
-/// Points on logarithmic axes.
+/// Points on logarithmic axes, their names beside them where no other name or point is.
 cv::Mat3b draw_plot(const std::vector<PlotPoint>& points, const std::string& x_label,
                     const std::string& y_label);
 

@@ -1,14 +1,17 @@
 #include "apps/reflect.hpp"
 
+#include <cmath>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "apps/number_option.hpp"
+#include "apps/tissue_choice.hpp"
+#include "wound/chromophores.hpp"
 #include "wound/input_error.hpp"
 #include "wound/shading.hpp"
-#include "wound/skin_presets.hpp"
-#include "wound/tissue_file.hpp"
 
 namespace app {
 
@@ -29,23 +32,28 @@ ordered_json per_channel(const std::vector<Response>& responses, Get get)
     return values;
 }
 
+// JSON has no infinity; tissue files write "inf".
+ordered_json thickness(double mm)
+{
+    return std::isfinite(mm) ? ordered_json(mm) : ordered_json("inf");
+}
+
 ordered_json domain_report(const SkinLayers& tissue)
 {
     ordered_json list = ordered_json::array();
     for (const OutsideDomain& case_ : outside_domain(tissue))
         list.push_back({{"layer", tissue.layers[case_.layer].name},
                         {"channel", case_.channel},
-                        {"thickness_mm", case_.thickness_mm},
+                        {"thickness_mm", thickness(case_.thickness_mm)},
                         {"limit_mm", case_.limit_mm}});
     return list;
 }
 
 } // namespace
 
-void reflect(const ReflectOptions& options, std::ostream& out)
+void reflect(const ReflectOptions& options, std::ostream& out, std::ostream& notes)
 {
-    const auto preset = tissue_preset(options.tissue);
-    const SkinLayers tissue = preset ? *preset : read_tissue(options.tissue);
+    const SkinLayers tissue = tissue_or_file(options.tissue);
     std::vector<Response> responses;
     for (std::size_t c = 0; c < tissue.channels(); ++c) {
         RungOptions channel = options.rung_options;
@@ -63,6 +71,9 @@ void reflect(const ReflectOptions& options, std::ostream& out)
     json["r_without_specular"] =
         per_channel(responses, [](const Response& x) { return x.r_without_specular; });
     json["t"] = per_channel(responses, [](const Response& x) { return x.t; });
+    json["layers"] = ordered_json::array(); // in the order of "absorbed"
+    for (const Layer& layer : tissue.layers)
+        json["layers"].push_back(layer.name);
     json["absorbed"] = ordered_json::array();
     for (std::size_t l = 0; l < tissue.layers.size(); ++l)
         json["absorbed"].push_back(per_channel(responses, [&](const Response& x) { return x.absorbed[l]; }));
@@ -76,8 +87,14 @@ void reflect(const ReflectOptions& options, std::ostream& out)
         const Lab lab = lab_from_linear(color);
         json["cielab"] = {lab.l, lab.a, lab.b}; // D65, 2 degrees
     }
-    if (options.rung == Rung::Published)
+    if (options.rung == Rung::Published) {
         json["outside_domain"] = domain_report(tissue);
+        if (const auto note = domain_note(tissue))
+            fmt::print(notes, "note: {}\n", *note);
+        if (std::ranges::any_of(tissue.layers, [](const Layer& l) { return std::isinf(l.thickness_mm); }))
+            fmt::print(notes, "note: eqs. (2) and (3) have no value for a layer of infinite thickness: null "
+                              "stands for it; give its thickness or take another --model\n");
+    }
     out << json.dump(2) << '\n';
 }
 
@@ -103,14 +120,17 @@ void add_light_options(CLI::App& command, ReflectOptions& options)
             "Diffuse Fresnel reflectance of the analytic models: exact (default) or polynomial")
         ->check(CLI::IsMember({"exact", "polynomial"}));
     RungOptions& rung = options.rung_options;
-    command.add_option("--photons", rung.photons, "Photons of monte-carlo")
-        ->check(CLI::Range(1.0, 1e10))
+    command.add_option("--photons", rung.photons, "Photons of monte-carlo; a standard error takes two")
+        ->transform(whole_number_from(2, 1e10))
         ->capture_default_str();
-    command.add_option("--seed", rung.seed, "Seed of monte-carlo")->capture_default_str();
+    command.add_option("--seed", rung.seed, "Seed of monte-carlo")
+        ->transform(whole_number_from(0, 4294967295))
+        ->capture_default_str();
     command.add_option("--threads", rung.threads, "Threads of monte-carlo; 0: one per core")
-        ->check(CLI::Range(0, 1024));
+        ->transform(whole_number_from(0, 1024))
+        ->capture_default_str();
     command.add_option("--angles", rung.angles, "Angles per panel of adding-doubling")
-        ->check(CLI::Range(2, 64))
+        ->transform(whole_number_from(2, 64))
         ->capture_default_str();
     command
         .add_option_function<std::string>(
@@ -131,13 +151,11 @@ void add_reflect_command(CLI::App& app)
         app.add_subcommand("reflect", "What layered tissue reflects, transmits and absorbs, as JSON");
     auto options = std::make_shared<ReflectOptions>();
     auto check = std::make_shared<bool>(false), ward = std::make_shared<bool>(false);
-    command->add_option(
-        "tissue", options->tissue,
-        "Tissue file (JSON), or a preset: table1, light, medium, dark, granulation, scar, ...");
-    command->add_option_function<std::string>(
-        "--model", [options](const std::string& text) { options->rung = rung_named(text); },
-        "published, clamped, exponential, two-stream-paper, two-stream (default), adding-doubling, "
-        "monte-carlo");
+    command
+        ->add_option("tissue", options->tissue,
+                     fmt::format("Tissue file, or one of {}", fmt::join(tissue_preset_names(), ", ")))
+        ->type_name("TISSUE.json");
+    add_model_option(*command, options->rung);
     add_light_options(*command, *options);
     command->add_flag("--check", *check,
                       "Compare monte-carlo and adding-doubling with published values and each other");
@@ -146,7 +164,9 @@ void add_reflect_command(CLI::App& app)
         "Print the share of light that the three forms of Ward's gloss return, by slope and incidence");
     command->footer("Example: cicatrix reflect tissue.json --model adding-doubling\ntissue.json: {\"unit\": "
                     "\"1/mm\", \"layers\": [{\"name\": \"dermis\", \"sigma_a\": [0.1, 0.3, 0.4], "
-                    "\"sigma_s_reduced\": [1.5, 1.9, 2.2], \"n\": 1.4, \"thickness_mm\": \"inf\"}]}");
+                    "\"sigma_s_reduced\": [1.5, 1.9, 2.2], \"n\": 1.4, \"thickness_mm\": \"inf\"}]}\nAll "
+                    "fields of a tissue file, and layers by what they "
+                    "contain (blood, melanosomes, ...): docs/scene.md");
     command->callback([options, check, ward] {
         if (*ward) {
             print_ward_albedo_table(std::cout);
@@ -164,7 +184,7 @@ void add_reflect_command(CLI::App& app)
         }
         if (options->tissue.empty())
             throw cicatrix::InputError("reflect", "no tissue given", "name a tissue file, or use --check");
-        reflect(*options, std::cout);
+        reflect(*options, std::cout, std::cerr);
     });
 }
 

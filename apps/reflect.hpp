@@ -16,8 +16,8 @@ struct ReflectOptions
     wound::RungOptions rung_options;
 };
 
-/// Writes one JSON object.
-void reflect(const ReflectOptions& options, std::ostream& out);
+/// Writes one JSON object to `out`; to `notes`, lines on where the model does not hold.
+void reflect(const ReflectOptions& options, std::ostream& out, std::ostream& notes);
 
 /// Compares Monte Carlo and adding-doubling with published values and with each other on twelve random
 /// stacks. Writes a table; false when a value is out of its tolerance.

@@ -48,13 +48,9 @@ std::vector<std::string> notes_on(const Scene& scene, const LoadedHead& head,
                                   const wound::HealingTissue& tissue)
 {
     std::vector<std::string> notes = head.notes;
-    if (const auto* table = std::get_if<wound::SkinLayers>(&tissue);
-        table != nullptr && scene.reflectance_model == wound::Rung::Published)
-        if (const std::size_t outside = wound::outside_domain(*table).size(); outside > 0)
-            notes.push_back(fmt::format("eqs. (2) and (3) as printed are outside their domain in {} of "
-                                        "{} layers and channels: colours of the wound are off, "
-                                        "often green (docs/optics.md)",
-                                        outside, table->layers.size() * table->channels()));
+    if (scene.reflectance_model == wound::Rung::Published)
+        if (const auto note = domain_note(layers_of(tissue)))
+            notes.push_back(*note);
     return notes;
 }
 

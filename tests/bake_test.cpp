@@ -9,9 +9,11 @@
 #include "apps/output.hpp"
 #include "apps/progress.hpp"
 #include "apps/reflect.hpp"
+#include "engine/image_io.hpp"
 #include "passes/reflectance_table.hpp"
 #include "tests/gpu.hpp"
 #include "tests/temporary_folder.hpp"
+#include "wound/chromophores.hpp"
 #include "wound/input_error.hpp"
 
 namespace {
@@ -139,36 +141,89 @@ TEST_F(Commands, ReflectPrintsOneObjectWithAllFields)
                                             "thickness_mm":0.2}]})";
     app::ReflectOptions options{.tissue = (path / "one.json").string(), .rung = Rung::AddingDoubling};
     options.rung_options.incidence = Incidence::Normal;
-    std::ostringstream out;
-    app::reflect(options, out);
+    std::ostringstream out, notes;
+    app::reflect(options, out, notes);
     const auto json = nlohmann::json::parse(out.str());
     EXPECT_NEAR(json.at("r").get<double>(), .09739, 2e-4); // van de Hulst; one wavelength: numbers, not lists
     EXPECT_NEAR(json.at("t").get<double>(), .66096, 2e-4);
     EXPECT_EQ(json.at("r_without_specular"), json.at("r"));
     EXPECT_NEAR(json.at("absorbed").at(0).get<double>(), 1 - .09739 - .66096, 4e-4);
     EXPECT_EQ(json.at("standard_error"), 0);
+    EXPECT_EQ(json.at("layers"), nlohmann::json({"slab"}));
+    EXPECT_EQ(notes.str(), "");
     options = {.tissue = "table1", .rung = Rung::Published};
     out.str("");
-    app::reflect(options, out);
+    app::reflect(options, out, notes);
     const auto published = nlohmann::json::parse(out.str());
     EXPECT_EQ(published.at("r").size(), 3u);
     EXPECT_EQ(published.at("absorbed").size(), 3u);
     EXPECT_EQ(published.at("outside_domain").size(), 5u);
+    EXPECT_EQ(published.at("layers"), nlohmann::json({"epidermis", "dermis", "subcutis"}));
+    EXPECT_THAT(notes.str(), testing::HasSubstr("5 of 9 layers and channels"));
     options.tissue = "light";
     out.str("");
-    app::reflect(options, out);
+    app::reflect(options, out, notes);
     EXPECT_EQ(nlohmann::json::parse(out.str()).at("linear_rgb").size(), 3u);
+}
+
+TEST_F(Commands, AnInfiniteLayerHasNoPrintedReflectanceAndNoWoundUnderIt)
+{
+    const std::string file = (path / "deep.json").string();
+    std::ofstream(file) << R"({"unit":"1/mm","layers":[
+        {"name":"dermis","sigma_a":1,"sigma_s":9,"n":1.4,"thickness_mm":"inf"},
+        {"name":"subcutis","sigma_a":1,"sigma_s":9,"n":1.4,"thickness_mm":1}]})";
+    std::ostringstream out, notes;
+    app::reflect({.tissue = file, .rung = Rung::Published}, out, notes);
+    const auto json = nlohmann::json::parse(out.str());
+    EXPECT_TRUE(json.at("r").is_null());
+    EXPECT_EQ(json.at("outside_domain").at(0).at("thickness_mm"), "inf");
+    EXPECT_THAT(notes.str(), testing::HasSubstr("infinite thickness"));
+    for (const Rung rung : {Rung::Clamped, Rung::TwoStream, Rung::AddingDoubling}) {
+        out.str("");
+        app::reflect({.tissue = file, .rung = rung}, out, notes);
+        EXPECT_TRUE(nlohmann::json::parse(out.str()).at("r").is_number()) << name(rung);
+    }
+    try {
+        app::healing_tissue_or_file(file);
+        ADD_FAILURE() << "accepted";
+    } catch (const cicatrix::InputError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr(file + ": /layers/0/thickness_mm: dermis is inf mm"));
+    }
+}
+
+TEST_F(Commands, TheDocumentedTissueFileIsLightSkin)
+{
+    std::ifstream stream(std::filesystem::path(CICATRIX_DOCS) / "scene.md");
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    text.erase(0, text.find("## The tissue file"));
+    text.erase(0, text.find("```json") + 7);
+    std::ofstream(path / "tissue.json") << text.substr(0, text.find("```"));
+    const HealingTissue tissue = app::healing_tissue_or_file((path / "tissue.json").string());
+    const Color expected = tissue_color(skin(SkinTone::Light).layers(), Rung::TwoStream);
+    EXPECT_LT(cv::norm(tissue_color(app::layers_of(tissue), Rung::TwoStream) - expected), 1e-12);
 }
 
 TEST_F(Commands, BakeWritesTablesAndPictures)
 {
     app::BakeOptions options{
         .tissue = "table1", .rung = Rung::TwoStream, .width = 8, .height = 8, .out = path};
-    std::ostringstream out;
-    app::bake(options, out);
+    std::ostringstream out, notes;
+    app::bake(options, out, notes);
     for (const char* name : {"open_bed.exr", "covered.exr", "tables.png", "color_over_days.png"})
         EXPECT_GT(std::filesystem::file_size(path / name), 100u) << name;
     EXPECT_THAT(out.str(), testing::HasSubstr("8 x 8, two-stream"));
+    EXPECT_EQ(notes.str(), "");
+    const int days_to_60 = engine::read_rgb(path / "color_over_days.png").cols;
+    options.last_day = 12;
+    app::bake(options, out, notes);
+    EXPECT_LT(engine::read_rgb(path / "color_over_days.png").cols, days_to_60); // no day past the table's
+    for (const char* tissue : {"table1", "light"}) {
+        options.tissue = tissue;
+        options.rung = Rung::Published;
+        notes.str("");
+        app::bake(options, out, notes);
+        EXPECT_THAT(notes.str(), testing::HasSubstr("outside their domain")) << tissue;
+    }
 }
 
 TEST_F(Commands, MistakesAreNamed)

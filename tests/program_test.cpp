@@ -273,7 +273,7 @@ TEST_F(Program, RefusesBrokenScenes)
     refused(R"({"exposure_stops": NaN})", "JSON");
     refused(R"({"views": [{"name": "a/b"}]})", "/views/0/name");
     refused(R"({"views": ["front", "front"]})", "/views/1");
-    refused(R"({"camera": {"fov_deg": 1e999}})", "JSON");
+    refused(R"({"camera": {"fov_deg": 1e999}})", "1e999");
     expect_refusal(capture({with("scene.json", R"({"tissue": "none.json"})"), "--head", head_}),
                    {"none.json"});
 }
@@ -291,6 +291,53 @@ TEST_F(Program, RefusesSenselessOptions)
     expect_refusal(on_the_head({"--no-such-option"}), {"--no-such-option", "--help"});
     expect_refusal(run_program({"paint"}), {"paint", "--help"});
     expect_refusal(run_program({}), {"--help"});
+}
+
+TEST_F(Program, RefusesNumbersThatAreNoneOrOutOfRange)
+{
+    const auto refused = [&](std::vector<std::string> arguments) {
+        const std::vector<std::string> words(arguments.end() - 2, arguments.end());
+        expect_refusal(run_program(arguments), words);
+    };
+    const std::string out = file("out");
+    for (const std::string number : {"nan", "inf", "-1", "1e999", "3651", "7x", ""})
+        refused({"bake", "--out", out, "--size", "2x2", "--last-day", number});
+    refused({"capture", "--out", out, "--orbit-degrees", "nan"});
+    refused({"capture", "--out", out, "--duration", "nan"});
+    refused({"capture", "--out", out, "--fps", "nan"});
+    refused({"capture", "--out", out, "--orbit", "1.5"});
+    refused({"wound", "photo.png", "--out", out, "--width-mm", "nan"});
+    refused({"wound", "photo.png", "--out", out, "--spacing", "nan"});
+    refused({"demo", "--scale", "nan"});
+    refused({"reflect", "light", "--seed", "-1"});
+    refused({"reflect", "light", "--photons", "1"}); // of one photon there is no standard error
+    refused({"reflect", "light", "--photons", "2.5"});
+    refused({"batch", "--random", "3", "--seed", "-1"});
+    expect_refusal(run_program({"reflect", "light", "--photons", "1e12"}), {"2 to 1e10"});
+    const Outcome whole = run_program({"reflect", "table1", "--model", "monte-carlo", "--photons", "1e4"});
+    EXPECT_EQ(whole.code, 0) << whole.err;
+    EXPECT_EQ(whole.out,
+              run_program({"reflect", "table1", "--model", "monte-carlo", "--photons", "10000"}).out);
+    EXPECT_GT(json::parse(whole.out).at("standard_error").at(0).get<double>(), 0);
+}
+
+TEST_F(Program, RefusesTissueItDoesNotKnow)
+{
+    const auto refused = [&](const std::string& tissue, std::vector<std::string> words) {
+        words.push_back(tissue);
+        expect_refusal(run_program({"reflect", tissue}), words);
+        expect_refusal(run_program({"bake", "--out", file("out"), "--tissue", tissue}), words);
+    };
+    refused(folder_.path().string(), {"not a regular file"});
+    refused("bruise", {"table1, light, medium, dark"});
+    refused(with("huge.json", R"({"unit": "1/mm", "layers": [{"n": 1e999}]})"), {"out of range", "1e999"});
+    refused(with("half.json", R"({"unit": "1/mm",)"), {"not valid JSON", "line 1"});
+    refused(with("unknown.json", R"({"unit": "1/mm", "layers": [], "colour": 1})"), {"/colour"});
+    expect_refusal(run_program({"reflect", "bruise"}), {"bruise-12"});
+    expect_refusal(run_program({"bake", "--out", file("out"), "--tissue", "granulation"}),
+                   {"granulation", "light"});
+    expect_refusal(run_program({"fit", folder_.path().string(), "--out", file("out")}),
+                   {folder_.path().string(), "not a regular file"});
 }
 
 TEST_F(Program, RefusesAnOutputFolderItCannotWrite)

@@ -202,23 +202,67 @@ std::span<const MeasuredSkin> measured_skins()
     return skins;
 }
 
-std::optional<HealingTissue> healing_tissue_named(std::string_view name)
+namespace {
+
+struct HealingPreset
 {
-    if (name == "table1")
-        return table1();
-    if (name == "light")
-        return skin(SkinTone::Light);
-    if (name == "medium")
-        return skin(SkinTone::Medium);
-    if (name == "dark")
-        return skin(SkinTone::Dark);
-    return {};
+    std::string_view name;
+    HealingTissue (*tissue)();
+};
+constexpr std::array<HealingPreset, 4> healing_presets{{
+    {"table1", [] { return HealingTissue(table1()); }},
+    {"light", [] { return HealingTissue(skin(SkinTone::Light)); }},
+    {"medium", [] { return HealingTissue(skin(SkinTone::Medium)); }},
+    {"dark", [] { return HealingTissue(skin(SkinTone::Dark)); }},
+}};
+
+// Light skin that is hurt, on one day.
+struct HurtPreset
+{
+    std::string_view name;
+    SkinLayers (*tissue)(const ChromophoreSkin& light);
+};
+constexpr double wound_depth_mm = 1, wound_closure_day = 21;
+constexpr std::array<HurtPreset, 6> hurt_presets{{
+    {"granulation", [](const ChromophoreSkin& s) { return layers_at(open_bed(s, 14, .5), wound_depth_mm); }},
+    {"new-epithelium",
+     [](const ChromophoreSkin& s) {
+         return layers_at(covered_bed(s, 10, wound_closure_day), wound_depth_mm);
+     }},
+    {"scar",
+     [](const ChromophoreSkin& s) {
+         return layers_at(covered_bed(s, wound_closure_day + days_per_month, wound_closure_day),
+                          wound_depth_mm);
+     }},
+    {"bruise-1", [](const ChromophoreSkin& s) { return bruise(s, 1); }},
+    {"bruise-6", [](const ChromophoreSkin& s) { return bruise(s, 6); }},
+    {"bruise-12", [](const ChromophoreSkin& s) { return bruise(s, 12); }},
+}};
+
+} // namespace
+
+std::vector<std::string_view> healing_tissue_names()
+{
+    std::vector<std::string_view> names;
+    for (const HealingPreset& preset : healing_presets)
+        names.push_back(preset.name);
+    return names;
 }
 
 std::vector<std::string_view> tissue_preset_names()
 {
-    return {"table1",         "light", "medium",   "dark",     "granulation",
-            "new-epithelium", "scar",  "bruise-1", "bruise-6", "bruise-12"};
+    std::vector<std::string_view> names = healing_tissue_names();
+    for (const HurtPreset& preset : hurt_presets)
+        names.push_back(preset.name);
+    return names;
+}
+
+std::optional<HealingTissue> healing_tissue_named(std::string_view name)
+{
+    for (const HealingPreset& preset : healing_presets)
+        if (preset.name == name)
+            return preset.tissue();
+    return {};
 }
 
 std::optional<SkinLayers> tissue_preset(std::string_view name)
@@ -227,20 +271,9 @@ std::optional<SkinLayers> tissue_preset(std::string_view name)
         const auto* table = std::get_if<SkinLayers>(&*tissue);
         return table ? *table : std::get<ChromophoreSkin>(*tissue).layers();
     }
-    const ChromophoreSkin light = skin(SkinTone::Light);
-    constexpr double depth_mm = 1, closure_day = 21;
-    if (name == "granulation")
-        return layers_at(open_bed(light, 14, .5), depth_mm);
-    if (name == "new-epithelium")
-        return layers_at(covered_bed(light, 10, closure_day), depth_mm);
-    if (name == "scar")
-        return layers_at(covered_bed(light, closure_day + days_per_month, closure_day), depth_mm);
-    if (name == "bruise-1")
-        return bruise(light, 1);
-    if (name == "bruise-6")
-        return bruise(light, 6);
-    if (name == "bruise-12")
-        return bruise(light, 12);
+    for (const HurtPreset& preset : hurt_presets)
+        if (preset.name == name)
+            return preset.tissue(skin(SkinTone::Light));
     return {};
 }
 

@@ -52,6 +52,7 @@ struct MeasuredSkin
 std::span<const MeasuredSkin> measured_skins();
 
 /// "table1", "light", "medium", "dark": skin that can heal.
+std::vector<std::string_view> healing_tissue_names();
 std::optional<HealingTissue> healing_tissue_named(std::string_view name);
 
 /// Those and "granulation", "new-epithelium", "scar" (1 month), "bruise-1", "bruise-6", "bruise-12" (days),

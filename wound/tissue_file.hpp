@@ -1,4 +1,5 @@
 // Tissue described in a JSON file: layers from the top down, each by its coefficients or by what it contains.
+// Units and ranges: docs/scene.md.
 //
 //   {"unit": "1/mm" or "1/cm", "n_above": 1, "n_below": 1, "layers": [{"name": "dermis", "n": 1.4, "g": 0,
 //     "thickness_mm": 1.8 or "inf",
