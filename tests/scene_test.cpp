@@ -65,7 +65,7 @@ TEST_F(SceneFile, AreasGiveAWoundItsCurveAndTheScenesHealingEveryWound)
     EXPECT_THAT(refused(R"({"healing": {"areas": "areas.csv", "series": "none"}})"),
                 HasSubstr("mean old, mean"));
     EXPECT_THAT(refused(R"({"healing": {"series": "old-1"}})"), HasSubstr("/healing/series"));
-    EXPECT_THAT(refused(R"({"healing": {"areas": "other.csv"}})"), HasSubstr("other.csv: cannot be read"));
+    EXPECT_THAT(refused(R"({"healing": {"areas": "other.csv"}})"), HasSubstr("other.csv: there is no such file"));
 }
 
 TEST_F(SceneFile, WhatIsWrittenReadsBackAsTheSameScene)
