@@ -1,6 +1,7 @@
 // The reflectance table on the CPU, its cache, and the commands `reflect` and `bake`.
 #include <fstream>
 #include <gmock/gmock.h>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <unistd.h>
@@ -263,4 +264,31 @@ TEST(Tables, OfEveryPresetInterpolateWithinThePromisedError)
     const nlohmann::ordered_json errors = app::measure_table_sizes(options, sizes, silent);
     for (const char* tissue : {"light", "medium", "dark", "table1"})
         EXPECT_LE(errors.at(0).at(tissue).at("rms").get<double>(), .002) << tissue;
+}
+
+TEST(Compare, LadderOrdersTheRungsAsTheDocumentsSay)
+{
+    // The stacks of docs/optics.md, section 8. Adding-doubling, within .001 of the walk there, is the truth:
+    // it has no noise.
+    const SkinLayers stacks[] = {
+        table1(.2, 1, 4),        table1(.2, 4, 9),       layers_at(restored_skin(table1(), 1), .2),
+        *tissue_preset("light"), *tissue_preset("dark"), *tissue_preset("granulation"),
+        *tissue_preset("scar")};
+    const auto rms = [&](Rung rung) {
+        double sum = 0;
+        for (const SkinLayers& tissue : stacks) {
+            const Color error = tissue_color(tissue, rung) - tissue_color(tissue, Rung::AddingDoubling);
+            sum += error.dot(error) / 3;
+        }
+        return std::sqrt(sum / static_cast<double>(std::size(stacks)));
+    };
+    const Rung worst_first[] = {Rung::Published,   Rung::Clamped,   Rung::TwoStreamPaper,
+                                Rung::Exponential, Rung::TwoStream, Rung::Calibrated};
+    double before = std::numeric_limits<double>::infinity();
+    for (Rung rung : worst_first) {
+        EXPECT_LT(rms(rung), before) << name(rung);
+        before = rms(rung);
+    }
+    EXPECT_LT(rms(Rung::TwoStream), .03);
+    EXPECT_LT(rms(Rung::Calibrated), .01);
 }

@@ -18,6 +18,10 @@ inline constexpr wound::Rung bounded[] = {wound::Rung::TwoStream, wound::Rung::T
                                           wound::Rung::Calibrated, wound::Rung::Clamped,
                                           wound::Rung::Exponential};
 
+/// What a layer can lack; none may make a step where it vanishes.
+inline constexpr double wound::LayerOptics::*coefficients[] = {
+    &wound::LayerOptics::sigma_a, &wound::LayerOptics::sigma_s_reduced, &wound::LayerOptics::thickness_mm};
+
 /// All numbers are floats, so that single and double precision see the same tissue.
 class Draw
 {
@@ -64,6 +68,17 @@ class Draw
         upper.thickness_mm *= part;
         at->thickness_mm *= 1 - part;
         stack.layers.insert(at, upper);
+        return stack;
+    }
+    /// The stack with a layer without thickness above one of its own; of the same index, since any other
+    /// would make a boundary.
+    wound::Stack with_empty_layer(wound::Stack stack)
+    {
+        const std::size_t at = place(stack);
+        wound::LayerOptics empty = layer();
+        empty.n = stack.layers[at].n;
+        empty.thickness_mm = 0;
+        stack.layers.insert(stack.layers.begin() + static_cast<std::ptrdiff_t>(at), empty);
         return stack;
     }
 

@@ -40,9 +40,6 @@ bool same(const Response& a, const Response& b, double tolerance)
     return std::abs(a.r - b.r) <= tolerance && std::abs(a.t - b.t) <= tolerance;
 }
 
-constexpr double LayerOptics::*coefficients[] = {&LayerOptics::sigma_a, &LayerOptics::sigma_s_reduced,
-                                                 &LayerOptics::thickness_mm};
-
 } // namespace
 
 TEST(BoundedRungs, ReturnAndPassOnNoMoreThanArrives)
@@ -56,15 +53,9 @@ TEST(BoundedRungs, ReturnAndPassOnNoMoreThanArrives)
 
 TEST(BoundedRungs, SeeNothingInALayerWithoutThickness)
 {
-    // It has the index of the layer below, since any other would make a boundary.
     Draw draw(2);
     for_each_case(bounded, [&](const Stack& without, Rung rung, const RungOptions& light) {
-        Stack with = without;
-        const std::size_t at = draw.place(with);
-        LayerOptics empty = draw.layer();
-        empty.n = with.layers[at].n;
-        empty.thickness_mm = 0;
-        with.layers.insert(with.layers.begin() + static_cast<std::ptrdiff_t>(at), empty);
+        const Stack with = draw.with_empty_layer(without);
         ASSERT_TRUE(same(reflectance(with, rung, light), reflectance(without, rung, light), 1e-15))
             << name(rung) << " " << text(with);
     });

@@ -135,7 +135,6 @@ struct Modes
 // column to that identity.
 Modes layer_modes(const MatrixXd& B, const MatrixXd& C, const VectorXd& isotropic, const VectorXd& absorbed)
 {
-    const Eigen::Index count = B.rows();
     Modes modes{.L = B.llt().matrixL(), .Q = {}, .k = {}, .isotropic = {}};
     const VectorXd slow = modes.L.triangularView<Eigen::Lower>().solve(isotropic);
     VectorXd axis = slow / slow.norm();

@@ -1,5 +1,5 @@
 // Diffuse reflectance of layered tissue in single precision: the analytic rungs (docs/optics.md). The double-precision reference is
-// wound/reflectance.cpp; a test compares the two. All functions are finite for sigma <= 1e6 mm^-1, thickness <= 1e9 mm,
+// wound/reflectance.cpp; a test compares the two. All functions are finite for sigma <= 1e6 mm^-1, any thickness,
 // n in 1..3, g in -1..1, except the printed equations, which overflow far outside their domain.
 #ifndef LIB_REFLECTANCE_GLSL
 #define LIB_REFLECTANCE_GLSL
@@ -75,7 +75,7 @@ Element boundary(float n_above, float n_below)
 // kappa = sqrt(K (K + 2 S)) so that neither S = 0 nor K = 0 is special.
 Element slab(vec3 S, vec3 K, float thickness_mm)
 {
-    float d = min(thickness_mm, 1e12);
+    float d = min(thickness_mm, 1e24); // infinite: far past any effect, without inf/inf or overflow
     vec3 x = 2.0 * d * sqrt(K * (K + 2.0 * S));
     vec3 e = exp(-x);
     // (1 - exp(-x)) / x, by its series where the difference would lose its digits.
@@ -117,7 +117,7 @@ void paper_layer(int model, vec3 sigma_a, vec3 s, float thickness_mm, float lowe
 {
     vec3 left, scattered;
     if (model == EXPONENTIAL) {
-        left = exp(-(sigma_a + s) * min(thickness_mm, 1e12));
+        left = exp(-(sigma_a + s) * min(thickness_mm, 1e24));
         scattered = 0.5 * s / max(sigma_a + s, vec3(1e-30)) * (1.0 - left * left);
     } else {
         vec3 d = vec3(thickness_mm);
