@@ -23,7 +23,7 @@ struct BakeOptions
 {
     std::string tissue = "light"; // a preset that heals, or a tissue file
     wound::Rung rung = wound::Rung::AddingDoubling;
-    std::uint32_t width = 64, height = 64; // texels over depth and over days
+    std::uint32_t width = passes::lut_size, height = passes::lut_size; // texels over depth and over days
     double last_day = 60;
     std::filesystem::path out = "out/bake";
     wound::RungOptions rung_options{.angles = 4, .photons = 200'000};

@@ -18,10 +18,6 @@
 namespace app {
 namespace {
 
-// A part is as wide as high: the smallest table of every preset within .002 of direct evaluation
-// (docs/optics.md).
-constexpr std::size_t table_rows = 64;
-
 const wound::RungOptions scene_rung_options{.angles = 4, .photons = 2000}; // photons: per wavelength
 
 double last_day(const Scene& scene)
@@ -242,11 +238,11 @@ passes::LutTissue Stage::lut_of(const Set& set, const wound::Healing& healing) c
 
 passes::LutTissue Stage::make_lut(const Set& set, const wound::Healing& healing) const
 {
-    const passes::LutRows rows = passes::lut_rows(set.tissue, healing, table_rows, last_day(set.scene));
+    const passes::LutRows rows = passes::lut_rows(set.tissue, healing, passes::lut_size, last_day(set.scene));
     passes::LutTissue tissue = passes::lut_tissue(rows.days, last_day(set.scene));
     if (set.scene.reflectance_model > wound::Rung::Calibrated) // the shader does not know it
         tissue.table = std::make_shared<engine::Texture>(passes::upload_reflectance_table(
-            *device_, kept_table(rows, table_rows, set.scene.reflectance_model, scene_rung_options),
+            *device_, kept_table(rows, passes::lut_size, set.scene.reflectance_model, scene_rung_options),
             "reflectance table"));
     return tissue;
 }

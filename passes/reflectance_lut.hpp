@@ -29,6 +29,10 @@ struct LutTissue
     std::shared_ptr<const engine::Texture> table;
 };
 
+/// Texels over depth, and of each part over the days: the smallest size that interpolates within .002 for
+/// every skin preset (docs/optics.md, section 9).
+constexpr std::uint32_t lut_size = 64;
+
 /// Day of a row, for those who fill `rows`.
 double lut_row_day(std::size_t row, std::size_t rows, double last_day);
 
@@ -53,6 +57,6 @@ struct ReflectanceLut
 /// pass `name`, which the graph skips while the tissue stands; with a table none.
 /// Width: texels over depth.
 ReflectanceLut add_reflectance_lut(engine::Graph& graph, std::string_view name, const LutTissue& tissue,
-                                   wound::Rung rung, std::uint32_t width = 32);
+                                   wound::Rung rung, std::uint32_t width = lut_size);
 
 } // namespace passes

@@ -17,10 +17,10 @@ struct WoundMaps
 {
     std::shared_ptr<const engine::Texture> color; // rgb linear reflectance, a opacity
     std::shared_ptr<const engine::Texture> shape; // r depth in mm, g coverage of the mask
-    double bed_luminance = 0;               // median of the open bed
-    double width_mm = 0;                    // of the patch
-    int size = 0;                           // texels a side
-    cv::Rect region;                        // texels that today's maps hold; all of them unless it is set
+    double bed_luminance = 0;                     // median of the open bed
+    double width_mm = 0;                          // of the patch
+    int size = 0;                                 // texels a side
+    cv::Rect region; // texels that today's maps hold; all of them unless it is set
 };
 WoundMaps upload_wound(const engine::Device& device, const wound::Patch& patch);
 
