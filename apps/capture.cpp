@@ -121,7 +121,7 @@ class Capture
             for (const View& view : views_)
                 record["films"].push_back(film(view));
         if (options_.cost)
-            record["cost"] = measure_cost(renderer_.device, renderer_.library, stage_, lines);
+            record["cost"] = measure_cost(renderer_.device, renderer_.shaders, stage_, lines);
         record["first_picture_ms"] =
             first_picture_ms_ ? json(*first_picture_ms_) : json(nullptr); // since the process started
         record["days"] = days_;

@@ -140,7 +140,7 @@ json interleaved_cost(Renderer& renderer, const std::array<const Stage*, 2>& sta
                                                 .picture);
                          }});
     const std::vector<Measurement> measured =
-        measure(renderer.device, renderer.library, cases, {.warm_up = 2, .counted = 0, .timed = rounds});
+        measure(renderer.device, renderer.shaders, cases, {.warm_up = 2, .counted = 0, .timed = rounds});
     const double a = median(pass_ms(measured[0], "forward"));
     const double b = median(pass_ms(measured[1], "forward"));
     return {{"rounds", rounds}, {"forward_ms", {{"a", a}, {"b", b}}}, {"forward_b_over_a", b / a}};

@@ -16,10 +16,10 @@ namespace app {
 /// Made once, for any number of scenes; stages made on its device must be gone before it.
 struct Renderer
 {
-    explicit Renderer(const engine::DeviceOptions& options) : device(options), executor(device, library) {}
+    explicit Renderer(const engine::DeviceOptions& options) : device(options), executor(device, shaders) {}
 
     engine::Device device;
-    engine::ShaderLibrary library;
+    engine::ShaderLibrary shaders;
     engine::Executor executor;
 };
 
