@@ -1,5 +1,5 @@
 # Turns SPIR-V files into one C++ source with a table of name -> words.
-# Variables: BINARIES (list), FUNCTION (in namespace engine, returns the table), OUTPUT.
+# Variables: BINARIES (list), FUNCTION (in namespace graph, returns the table), OUTPUT.
 set(arrays "")
 set(table "")
 foreach(binary ${BINARIES})
@@ -17,15 +17,15 @@ if(NOT table)
     set(table "    {\"\", none},\n")
 endif()
 file(WRITE ${OUTPUT}.tmp "// Generated from SPIR-V by cmake/embed_shaders.cmake.
-#include \"engine/embedded_shaders.hpp\"
+#include \"engine/graph/embedded_shaders.hpp\"
 namespace {
 ${arrays}
-const engine::EmbeddedShader shaders[] = {
+const graph::EmbeddedShader shaders[] = {
 ${table}};
 } // namespace
-namespace engine {
+namespace graph {
 std::span<const EmbeddedShader> ${FUNCTION}();
 std::span<const EmbeddedShader> ${FUNCTION}() { return shaders; }
-} // namespace engine
+} // namespace graph
 ")
 file(RENAME ${OUTPUT}.tmp ${OUTPUT})

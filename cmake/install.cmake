@@ -20,7 +20,7 @@ cicatrix_document(fish cicatrix.fish ${CMAKE_INSTALL_DATADIR}/fish/vendor_comple
 add_custom_target(documents ALL DEPENDS ${document_files})
 
 install(TARGETS cicatrix RUNTIME)
-install(PROGRAMS apps/cicatrix-fetch-head TYPE BIN)
+install(PROGRAMS tools/head/cicatrix-fetch-head TYPE BIN)
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/cicatrix)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})

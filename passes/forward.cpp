@@ -16,14 +16,14 @@ shared::vec3 to_vec3(const glm::dvec3& v)
     return shared::vec3(v);
 }
 
-shared::WoundFrame wound_frame(const PlacedWound& wound)
+shared::WoundFrame wound_frame(const ForwardWound& wound)
 {
-    const Anchor& anchor = wound.anchor;
+    const head::Anchor& anchor = wound.anchor;
     const wound::WoundDay& today = *wound.today;
     return {.centre = to_vec3(anchor.centre),
             .half_width = float(anchor.half_width_m),
             .right = to_vec3(anchor.right),
-            .reach = float(Anchor::reach),
+            .reach = float(head::Anchor::reach),
             .down = to_vec3(anchor.down),
             .day = float(today.day),
             .normal = to_vec3(anchor.normal),
@@ -41,15 +41,15 @@ shared::Part part_params(const HeadPart& part)
 {
     shared::Part params{part.albedo_factor, part.normal_scale, 1, 1, 1};
     switch (part.surface) {
-    case Surface::Skin:
+    case head::Surface::Skin:
         break;
-    case Surface::Eye: // a wet, smooth ball: the highlight's energy in a lobe a fifth as wide
+    case head::Surface::Eye: // a wet, smooth ball: the highlight's energy in a lobe a fifth as wide
         params.slope = 0.2f;
         params.specular = 0.5f;
         params.translucency = 0.5f;
         break;
-    case Surface::Hair:
-    case Surface::Other:
+    case head::Surface::Hair:
+    case head::Surface::Other:
         params.specular = 0;
         break;
     }
@@ -57,9 +57,9 @@ shared::Part part_params(const HeadPart& part)
 }
 
 /// Every sampler of the shader must be given; a draw without wounds gets the head's white texel instead.
-void give_wounds(engine::Draw& draw, const ForwardInput& input, bool wounded, engine::ImageId blank)
+void give_wounds(graph::Draw& draw, const ForwardInput& input, bool wounded, graph::ImageId blank)
 {
-    std::vector<engine::ImageId> color(shared::MAX_WOUNDS, blank), state = color, relief = color, lut = color;
+    std::vector<graph::ImageId> color(shared::MAX_WOUNDS, blank), state = color, relief = color, lut = color;
     for (std::size_t i = 0; wounded && i < input.wounds.size(); ++i) {
         color[i] = input.wounds[i].texture.color;
         state[i] = input.wounds[i].texture.state;
@@ -73,41 +73,21 @@ void give_wounds(engine::Draw& draw, const ForwardInput& input, bool wounded, en
     draw.sample("reflectance_lut", lut);
 }
 
-glm::dvec3 up_of(const Camera& camera)
-{
-    const glm::dvec3 sight = camera.target - camera.eye;
-    return std::abs(sight.y) > 0.999 * glm::length(sight) ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
-}
-
 } // namespace
 
-glm::dvec3 sight_through(const Camera& camera, double x, double y, double aspect)
-{
-    const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
-    const glm::dvec3 right = glm::normalize(glm::cross(forward, up_of(camera)));
-    const double half_height = std::tan(glm::radians(camera.fov_deg) / 2);
-    return forward + half_height * (x * aspect * right - y * glm::cross(right, forward));
-}
-
-glm::dmat4 view_from_world(const Camera& camera)
-{
-    const glm::dvec3 up = up_of(camera);
-    return glm::lookAt(camera.eye, camera.target, up);
-}
-
-shared::View make_view(const Camera& camera, const Head& head, const Canvas& canvas)
+shared::View make_view(const head::Camera& camera, const Head& head, const ViewportTile& tile)
 {
     const glm::dvec3 low(head.min), high(head.max);
     const double radius = 0.5 * glm::distance(low, high);
     const double distance = glm::distance(camera.eye, 0.5 * (low + high));
     const double near = std::max(distance - radius, 0.02), far = distance + radius + 0.1;
-    glm::dmat4 projection = glm::perspective(glm::radians(camera.fov_deg), canvas.aspect(), near, far);
+    glm::dmat4 projection = glm::perspective(glm::radians(camera.fov_deg), tile.aspect(), near, far);
     projection[1][1] *= -1; // Vulkan's y points down
-    return {shared::mat4(tile_from_picture(canvas) * projection * view_from_world(camera)),
+    return {shared::mat4(tile_from_picture(tile) * projection * head::view_from_world(camera)),
             to_vec3(camera.eye)};
 }
 
-WoundUniform wound_frames(std::span<const PlacedWound> wounds)
+WoundUniform wound_frames(std::span<const ForwardWound> wounds)
 {
     WoundUniform uniform{};
     for (std::size_t i = 0; i < wounds.size(); ++i)
@@ -115,13 +95,13 @@ WoundUniform wound_frames(std::span<const PlacedWound> wounds)
     return uniform;
 }
 
-engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, const shared::View& view,
-                            const Shading& shading, const engine::ImageDesc& target)
+graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const shared::View& view,
+                           const optics::Shading& shading, const graph::ImageDesc& target)
 {
     assert(input.wounds.size() <= shared::MAX_WOUNDS);
-    const engine::ImageDesc single{target.width, target.height, VK_FORMAT_R16G16B16A16_SFLOAT, 1};
-    const engine::ImageId radiance = graph.image("radiance", single);
-    engine::RasterPass& pass = graph.raster("forward");
+    const graph::ImageDesc single{target.width, target.height, VK_FORMAT_R16G16B16A16_SFLOAT, 1};
+    const graph::ImageId radiance = graph.image("radiance", single);
+    graph::RasterPass& pass = graph.raster("forward");
     if (target.samples > 1)
         pass.color(graph.image("radiance_msaa", {target.width, target.height, single.format, target.samples}),
                    {0, 0, 0, 0}, radiance);
@@ -137,21 +117,21 @@ engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, con
     pass.constant("WARD", shading.ward);
     pass.constant("NORMAL_MAP", shading.normal_map);
     pass.constant("SHADOW", input.shadow.has_value());
-    pass.constant("AMBIENT", shading.ambient != glm::vec3(0));
-    pass.constant("WARD_MODEL", std::uint32_t(shading.model.ward));
-    pass.constant("TRANSLUCENCY_MODEL", std::uint32_t(shading.model.translucency));
-    pass.constant("BLEND_MODEL", std::uint32_t(shading.blend));
+    pass.constant("AMBIENT", shading.ambient != base::Color(0, 0, 0));
+    pass.constant("WARD_MODEL", std::uint32_t(shading.ward_model));
+    pass.constant("TRANSLUCENCY_MODEL", std::uint32_t(shading.translucency_model));
+    pass.constant("BLEND_MODEL", std::uint32_t(shading.blend_model));
     pass.uniform("View_", view);
-    pass.uniform("Shading_", shading_params(shading.model, shading.ambient));
+    pass.uniform("Shading_", shading_params(shading));
     pass.uniform("Lighting_", lighting(input.lights));
     pass.uniform("Wounds_", wound_frames(input.wounds));
     pass.uniform("Shadow_", input.shadow.value_or(shared::Shadow{}));
-    const engine::ImageId blank = graph.import("white", *input.head.white);
-    pass.sample("shadow_map", input.shadow ? input.shadow_depth : blank, engine::Sampler::NearestClamp);
+    const graph::ImageId blank = graph.import("white", *input.head.white);
+    pass.sample("shadow_map", input.shadow ? input.shadow_depth : blank, graph::Sampler::NearestClamp);
 
     for (std::size_t i = 0; i < input.head.parts.size(); ++i) {
         const HeadPart& part = input.head.parts[i];
-        engine::Draw& draw = pass.draw("forward");
+        graph::Draw& draw = pass.draw("forward");
         draw.mesh = input.head.mesh.get();
         draw.first_index = part.first_index;
         draw.index_count = part.index_count;
@@ -160,11 +140,11 @@ engine::ImageId add_forward(engine::Graph& graph, const ForwardInput& input, con
         draw.depth_write = !part.blend;
         draw.uniform("Part_", part_params(part));
         draw.sample("albedo_map", graph.import(fmt::format("albedo {}", i), *part.albedo),
-                    engine::Sampler::LinearRepeatMips);
+                    graph::Sampler::LinearRepeatMips);
         draw.sample("normal_map", graph.import(fmt::format("normal {}", i), *part.normal),
-                    engine::Sampler::LinearRepeatMips);
+                    graph::Sampler::LinearRepeatMips);
         draw.sample("occlusion_map", graph.import(fmt::format("occlusion {}", i), *part.occlusion),
-                    engine::Sampler::LinearRepeatMips);
+                    graph::Sampler::LinearRepeatMips);
         give_wounds(draw, input, part.wounded, blank);
     }
     return radiance;

@@ -7,17 +7,17 @@
 
 namespace passes {
 
-FrameImages add_frame(engine::Graph& graph, const FrameInput& input)
+FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
 {
     FrameImages images;
-    std::vector<PlacedWound> placed;
+    std::vector<ForwardWound> placed;
     for (std::size_t i = 0; i < input.wounds.size(); ++i) {
-        const SceneWound& wound = input.wounds[i];
+        const FrameWound& wound = input.wounds[i];
         const std::string suffix = i == 0 ? "" : fmt::format(" {}", i + 1);
-        const WoundTexture texture = add_wound_texture(graph, suffix, wound.maps, input.today[i]);
+        const WoundTexture texture = add_wound_texture(graph, suffix, wound.maps, wound.today);
         const ReflectanceLut lut =
             add_reflectance_lut(graph, "reflectance_lut" + suffix, wound.tissue, input.reflectance);
-        placed.push_back({wound.anchor, texture, lut, wound.tissue.parameters.axes, &input.today[i]});
+        placed.push_back({wound.anchor, texture, lut, wound.tissue.parameters.axes, &wound.today});
         images.wounds.push_back(texture);
     }
     ForwardInput forward{input.head, placed, input.lights, {}, {}, input.every_frame};
@@ -26,14 +26,14 @@ FrameImages add_frame(engine::Graph& graph, const FrameInput& input)
     if (forward.shadow)
         forward.shadow_depth =
             add_shadow(graph, *forward.shadow, *input.head.caster_mesh, input.head.casters);
-    const auto [width, height] = input.canvas.size;
-    const shared::View view = make_view(input.camera, input.head, input.canvas);
+    const auto [width, height] = input.tile.size;
+    const shared::View view = make_view(input.camera, input.head, input.tile);
     images.radiance = add_forward(graph, forward, view, input.shading,
                                   {width, height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
-    images.picture = add_tonemap(graph, images.radiance, input.exposure, Highlights::SoftShoulder,
-                                 backdrop_of(input.canvas));
-    images.labels = add_labels(graph, input.head, placed, view, label_camera(input.camera, input.canvas),
-                               input.canvas.size);
+    images.picture = add_tonemap(graph, images.radiance, input.exposure_stops, Highlights::SoftShoulder,
+                                 backdrop_of(input.tile));
+    images.labels =
+        add_labels(graph, input.head, placed, view, label_camera(input.camera, input.tile), input.tile.size);
     return images;
 }
 

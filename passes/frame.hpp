@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/graph.hpp"
+#include "engine/graph/graph.hpp"
 #include "passes/forward.hpp"
 #include "passes/head.hpp"
 #include "passes/labels.hpp"
@@ -13,38 +13,38 @@
 
 namespace passes {
 
-/// A wound of the scene: where it is, its day-0 maps, its tissue over the days.
-struct SceneWound
+/// A wound in a frame: where it is, its day-0 maps, its tissue over the days, and what it is today.
+struct FrameWound
 {
-    Anchor anchor;
-    WoundMaps maps;
-    LutTissue tissue;
+    const head::Anchor& anchor;
+    const WoundMaps& maps;
+    const LutTissue& tissue;
+    const wound::WoundDay& today;
 };
 
 /// What a frame shows. Everything is kept by the caller while the frame is declared.
 struct FrameInput
 {
     const Head& head;
-    std::span<const SceneWound> wounds;
-    std::span<const wound::WoundDay> today; // one per wound
-    std::span<const wound::Light> lights;
-    Camera camera;
-    Shading shading;
-    wound::Rung reflectance = wound::Rung::TwoStream;
-    Canvas canvas;
+    std::span<const FrameWound> wounds;    // at most shared::MAX_WOUNDS
+    std::span<const optics::Light> lights; // at most shared::MAX_LIGHTS
+    head::Camera camera;
+    optics::Shading shading;
+    optics::ReflectanceModel reflectance = optics::ReflectanceModel::TwoStream;
+    ViewportTile tile;
     std::uint32_t samples = 1;
-    float exposure = 1;
-    bool every_frame = true; // draw the head even when nothing has changed, as those who measure it want
+    float exposure_stops = 0; // each doubles the light
+    bool every_frame = true;  // draw the head even when nothing has changed, as those who measure it want
 };
 
 struct FrameImages
 {
-    engine::ImageId picture;  // RGBA8, sRGB-encoded
-    engine::ImageId radiance; // RGBA16F, linear, neither exposed nor with a backdrop, premultiplied
+    graph::ImageId picture;  // RGBA8, sRGB-encoded
+    graph::ImageId radiance; // RGBA16F, linear, neither exposed nor with a backdrop, premultiplied
     std::vector<WoundTexture> wounds;
     LabelImages labels; // cost nothing unless they are read back
 };
 
-FrameImages add_frame(engine::Graph& graph, const FrameInput& input);
+FrameImages add_frame(graph::Graph& graph, const FrameInput& input);
 
 } // namespace passes

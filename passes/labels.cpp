@@ -5,14 +5,14 @@
 
 namespace passes {
 
-LabelImages add_labels(engine::Graph& graph, const Head& head, std::span<const PlacedWound> wounds,
+LabelImages add_labels(graph::Graph& graph, const Head& head, std::span<const ForwardWound> wounds,
                        const shared::View& view, const shared::LabelCamera& camera,
                        std::array<std::uint32_t, 2> size)
 {
     const auto [width, height] = size;
     const LabelImages images{graph.image("label_kinds", {width, height, VK_FORMAT_R8G8_UNORM}),
                              graph.image("label_measures", {width, height, VK_FORMAT_R32G32B32A32_SFLOAT})};
-    engine::RasterPass& pass = graph.raster("labels");
+    graph::RasterPass& pass = graph.raster("labels");
     pass.color(images.kinds, {0, 0, 0, 0});
     pass.color(images.measures, {0, 0, 0, 0});
     pass.depth(graph.image("label_depth", {width, height, VK_FORMAT_D32_SFLOAT}));
@@ -20,33 +20,33 @@ LabelImages add_labels(engine::Graph& graph, const Head& head, std::span<const P
     pass.uniform("LabelCamera_", camera);
     pass.uniform("Wounds_", wound_frames(wounds));
 
-    const engine::ImageId blank = graph.import("label blank", *head.white);
+    const graph::ImageId blank = graph.import("label blank", *head.white);
     for (const HeadPart& part : head.parts) {
         if (part.blend)
             continue;
         // Every sampler of the shader must be given; a draw without wounds gets the white texel instead.
-        std::vector<engine::ImageId> state(shared::MAX_WOUNDS, blank), relief = state;
+        std::vector<graph::ImageId> state(shared::MAX_WOUNDS, blank), relief = state;
         for (std::size_t i = 0; part.wounded && i < wounds.size(); ++i) {
             state[i] = wounds[i].texture.state;
             relief[i] = wounds[i].texture.relief;
         }
-        engine::Draw& draw = pass.draw("labels");
+        graph::Draw& draw = pass.draw("labels");
         draw.mesh = head.mesh.get();
         draw.first_index = part.first_index;
         draw.index_count = part.index_count;
         draw.cull_back_faces = !part.double_sided;
         draw.constant("WOUNDS", part.wounded ? std::uint32_t(wounds.size()) : 0u);
-        draw.constant("SURFACE", part.surface == Surface::Skin ? shared::LABEL_SKIN : shared::LABEL_OTHER);
+        draw.constant("SURFACE",
+                      part.surface == head::Surface::Skin ? shared::LABEL_SKIN : shared::LABEL_OTHER);
         draw.sample("wound_state", state);
         draw.sample("wound_relief", relief);
     }
     return images;
 }
 
-shared::LabelCamera label_camera(const Camera& camera, const Canvas& canvas)
+shared::LabelCamera label_camera(const head::Camera& camera, const ViewportTile& tile)
 {
-    const double pixel =
-        2 * std::tan(glm::radians(camera.fov_deg) / 2) / canvas.picture[1]; // 1 / fy = 1 / fx
+    const double pixel = 2 * std::tan(glm::radians(camera.fov_deg) / 2) / tile.picture[1]; // 1 / fy = 1 / fx
     return {glm::vec3(camera.eye), glm::vec3(glm::normalize(camera.target - camera.eye)),
             float(pixel * pixel)};
 }

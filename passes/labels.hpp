@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/graph.hpp"
+#include "engine/graph/graph.hpp"
 #include "passes/forward.hpp"
 #include "shaders/shared/labels.h"
 
@@ -17,20 +17,20 @@ namespace passes {
 
 struct LabelImages
 {
-    engine::ImageId kinds; // RG8: shared::LABEL_..., number of the wound from 1 (0: none)
-    engine::ImageId
+    graph::ImageId kinds; // RG8: shared::LABEL_..., number of the wound from 1 (0: none)
+    graph::ImageId
         measures; // RGBA32F: depth of the hollow in mm (negative: a raised scar), 0 outside wounds;
                   // distance along the optical axis in mm, 0 beside the head;
                   // the wound's surface in the pixel in mm2: of the open bed; inside the outer border
 };
 
 /// Adds one raster pass "labels", which the graph drops when nobody reads it.
-LabelImages add_labels(engine::Graph& graph, const Head& head, std::span<const PlacedWound> wounds,
+LabelImages add_labels(graph::Graph& graph, const Head& head, std::span<const ForwardWound> wounds,
                        const shared::View& view, const shared::LabelCamera& camera,
                        std::array<std::uint32_t, 2> size);
 
 /// What the pass must know of the camera beside its view: how much a pixel holds.
-shared::LabelCamera label_camera(const Camera& camera, const Canvas& canvas);
+shared::LabelCamera label_camera(const head::Camera& camera, const ViewportTile& tile);
 
 /// The labels of one frame on the CPU.
 struct LabelMaps

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cassert>
 
-#include "wound/spectrum.hpp"
+#include <opencv2/imgproc.hpp>
+
+#include "wound/optics/spectrum.hpp"
 
 namespace passes {
 
@@ -20,7 +22,7 @@ shared::vec3 three(std::span<const double> channels, std::size_t band)
 
 std::vector<shared::mat3> band_weights(std::size_t channels)
 {
-    const std::span<const wound::Color> weights = wound::channel_weights(channels);
+    const std::span<const base::Color> weights = optics::channel_weights(channels);
     assert(!weights.empty());
     std::vector<shared::mat3> bands((channels + 2) / 3, shared::mat3(0.0f));
     for (std::size_t i = 0; i < channels; ++i) // a column holds what one channel adds to R, G and B
@@ -29,7 +31,7 @@ std::vector<shared::mat3> band_weights(std::size_t channels)
     return bands;
 }
 
-void append(LutTissue& tissue, const wound::Layer& layer)
+void append(LutTissue& tissue, const optics::Layer& layer)
 {
     constexpr double thickest_mm = 1e9; // an infinite layer would give inf / inf
     tissue.layers.push_back({.g = static_cast<float>(layer.g),
@@ -41,41 +43,20 @@ void append(LutTissue& tissue, const wound::Layer& layer)
 
 } // namespace
 
-double lut_row_day(std::size_t row, std::size_t rows, double last_day)
-{
-    return shared::lut_value(static_cast<float>(row), static_cast<float>(rows), static_cast<float>(last_day));
-}
-
-LutRows lut_rows(const wound::HealingTissue& tissue, const wound::Healing& healing, std::size_t rows,
-                 double last_day)
-{
-    LutRows result;
-    const double closed = wound::closure_day(healing.curve);
-    for (std::size_t row = 0; row < rows; ++row) {
-        const double day = lut_row_day(row, rows, last_day);
-        result.days.push_back(wound::open_bed(tissue, day, wound::healing_at(healing, day).depth_scale));
-    }
-    for (std::size_t row = 0; row < rows; ++row)
-        result.days.push_back(wound::covered_bed(tissue, lut_row_day(row, rows, last_day), closed));
-    result.axes = {static_cast<float>(deepest_injury_mm(result.days.front().intact)),
-                   static_cast<float>(last_day)};
-    return result;
-}
-
-LutTissue lut_tissue(std::span<const wound::TissueDay> rows, double last_day)
+LutTissue lut_tissue(std::span<const optics::TissueDay> rows, double last_day)
 {
     assert(!rows.empty());
     LutTissue result;
     result.weights = band_weights(rows.front().intact.channels());
-    for (const wound::TissueDay& day : rows) {
+    for (const optics::TissueDay& day : rows) {
         assert(day.intact.layers.size() == rows.front().intact.layers.size());
         append(result, day.cover);
         append(result, day.regrown);
-        for (const wound::Layer& layer : day.intact.layers)
+        for (const optics::Layer& layer : day.intact.layers)
             append(result, layer);
         result.days.push_back({static_cast<float>(day.missing_ratio), static_cast<float>(day.regrown_ratio)});
     }
-    const wound::SkinLayers& skin = rows.front().intact;
+    const optics::SkinLayers& skin = rows.front().intact;
     result.parameters = {.axes = {.deepest_mm = static_cast<float>(deepest_injury_mm(skin)),
                                   .last_day = static_cast<float>(last_day)},
                          .n_above = static_cast<float>(skin.n_above),
@@ -85,20 +66,20 @@ LutTissue lut_tissue(std::span<const wound::TissueDay> rows, double last_day)
     return result;
 }
 
-ReflectanceLut add_reflectance_lut(engine::Graph& graph, std::string_view name, const LutTissue& tissue,
-                                   wound::Rung rung, std::uint32_t width)
+ReflectanceLut add_reflectance_lut(graph::Graph& graph, std::string_view name, const LutTissue& tissue,
+                                   optics::ReflectanceModel model, std::uint32_t width)
 {
     if (tissue.table) {
         graph.keep(tissue.table);
         return {graph.import(name, *tissue.table)};
     }
-    assert(rung <= wound::Rung::Calibrated);
+    assert(model <= optics::ReflectanceModel::Calibrated);
     const auto height = static_cast<std::uint32_t>(tissue.days.size());
     // Half floats: every device filters them linearly; their error, 2.4e-4 of the value, is below the table's
     // own.
-    const engine::ImageId lut = graph.image(name, {width, height, VK_FORMAT_R16G16B16A16_SFLOAT});
-    engine::ComputePass& pass = graph.compute(name, "reflectance_lut.comp");
-    pass.constant("MODEL", static_cast<std::int32_t>(rung));
+    const graph::ImageId lut = graph.image(name, {width, height, VK_FORMAT_R16G16B16A16_SFLOAT});
+    graph::ComputePass& pass = graph.compute(name, "reflectance_lut.comp");
+    pass.constant("MODEL", static_cast<std::int32_t>(model));
     pass.uniform("Parameters", tissue.parameters);
     pass.buffer("Layers", std::span(tissue.layers));
     pass.buffer("Bands", std::span(tissue.bands));
@@ -107,6 +88,15 @@ ReflectanceLut add_reflectance_lut(engine::Graph& graph, std::string_view name, 
     pass.store("lut_out", lut);
     pass.dispatch(width, height);
     return {lut};
+}
+
+gpu::Texture upload_reflectance_table(const gpu::Device& device, const cv::Mat3f& table,
+                                      const std::string& name)
+{
+    cv::Mat rgba, half;
+    cv::cvtColor(table, rgba, cv::COLOR_RGB2RGBA);
+    rgba.convertTo(half, CV_16F);
+    return gpu::Texture(device, half, gpu::Encoding::Linear, false, name);
 }
 
 } // namespace passes

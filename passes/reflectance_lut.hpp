@@ -6,12 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/graph.hpp"
-#include "engine/texture.hpp"
+#include "engine/gpu/texture.hpp"
+#include "engine/graph/graph.hpp"
 #include "shaders/shared/reflectance_lut.h"
-#include "wound/healing.hpp"
-#include "wound/reflectance.hpp"
-#include "wound/skin_presets.hpp"
+#include "wound/optics/reflectance.hpp"
+#include "wound/reflectance_table.hpp"
 
 namespace passes {
 
@@ -24,39 +23,27 @@ struct LutTissue
     std::vector<shared::mat3> weights;    // of every band: its channels -> linear RGB
     std::vector<shared::LutDay> days;     // one per row
     shared::LutParameters parameters;
-    /// The finished table, of a rung that the shader does not know (reflectance_table.hpp). None: it is baked
-    /// by a compute pass.
-    std::shared_ptr<const engine::Texture> table;
+    /// The finished table, of a model that the shader does not know (wound/reflectance_table.hpp). None: it
+    /// is baked by a compute pass.
+    std::shared_ptr<const gpu::Texture> table;
 };
-
-/// Texels over depth, and of each part over the days: the smallest size that interpolates within .002 for
-/// every skin preset (docs/optics.md, section 9).
-constexpr std::uint32_t lut_size = 64;
-
-/// Day of a row, for those who fill `rows`.
-double lut_row_day(std::size_t row, std::size_t rows, double last_day);
-
-/// The tissue of a healing wound on every row's day, as layers.
-struct LutRows
-{
-    std::vector<wound::TissueDay> days; // `rows` of the open bed, then as many of what is covered
-    shared::LutAxes axes;
-};
-LutRows lut_rows(const wound::HealingTissue& tissue, const wound::Healing& healing, std::size_t rows,
-                 double last_day);
 
 /// `rows`: LutRows::days, all with the same number of channels and of intact layers.
-LutTissue lut_tissue(std::span<const wound::TissueDay> rows, double last_day);
+LutTissue lut_tissue(std::span<const optics::TissueDay> rows, double last_day);
 
 struct ReflectanceLut
 {
-    engine::ImageId reflectance; // linear RGB, >= 0 and finite; u = injury depth, v = part and day
+    graph::ImageId reflectance; // linear RGB, >= 0 and finite; u = injury depth, v = part and day
 };
 
-/// `rung`: one that the shader knows, up to Calibrated, unless the tissue brings its table. Adds one compute
+/// `model`: one that the shader knows, up to Calibrated, unless the tissue brings its table. Adds one compute
 /// pass `name`, which the graph skips while the tissue stands; with a table none.
 /// Width: texels over depth.
-ReflectanceLut add_reflectance_lut(engine::Graph& graph, std::string_view name, const LutTissue& tissue,
-                                   wound::Rung rung, std::uint32_t width = lut_size);
+ReflectanceLut add_reflectance_lut(graph::Graph& graph, std::string_view name, const LutTissue& tissue,
+                                   optics::ReflectanceModel model, std::uint32_t width = wound::lut_size);
+
+/// Half floats, as the shader stores them, for LutTissue::table.
+gpu::Texture upload_reflectance_table(const gpu::Device& device, const cv::Mat3f& table,
+                                      const std::string& name);
 
 } // namespace passes

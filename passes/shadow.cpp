@@ -26,14 +26,14 @@ glm::dmat4 light_view(const glm::dvec3& eye, const glm::dvec3& forward)
 
 } // namespace
 
-std::optional<shared::Shadow> fit_shadow(const wound::Light& light, const glm::vec3& box_min,
+std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::vec3& box_min,
                                          const glm::vec3& box_max)
 {
     const glm::dvec3 center = glm::dvec3(box_min + box_max) * 0.5;
     const double radius = glm::length(glm::dvec3(box_max) - center);
     const glm::dvec3 position(light.position[0], light.position[1], light.position[2]);
     const glm::dvec3 direction(light.direction[0], light.direction[1], light.direction[2]);
-    const bool parallel = light.kind == wound::LightKind::Directional;
+    const bool parallel = light.kind == optics::LightKind::Directional;
 
     const glm::dvec3 eye = parallel ? center + 2 * radius * direction : position;
     const double distance = glm::length(center - eye);
@@ -63,16 +63,16 @@ std::optional<shared::Shadow> fit_shadow(const wound::Light& light, const glm::v
                           .texel = static_cast<float>(2 * half / shadow_size)};
 }
 
-engine::ImageId add_shadow(engine::Graph& graph, const shared::Shadow& shadow, const engine::MeshBuffer& mesh,
-                           std::span<const engine::Primitive> casters)
+graph::ImageId add_shadow(graph::Graph& graph, const shared::Shadow& shadow, const graph::Mesh& mesh,
+                          std::span<const head::Primitive> casters)
 {
-    const engine::ImageId depth =
+    const graph::ImageId depth =
         graph.image("shadow depth", {shadow_size, shadow_size, VK_FORMAT_D32_SFLOAT});
-    engine::RasterPass& pass = graph.raster("shadow");
+    graph::RasterPass& pass = graph.raster("shadow");
     pass.depth(depth);
     pass.uniform("ShadowBlock", shadow);
-    for (const engine::Primitive& caster : casters) {
-        engine::Draw& draw = pass.draw("shadow");
+    for (const head::Primitive& caster : casters) {
+        graph::Draw& draw = pass.draw("shadow");
         draw.mesh = &mesh;
         draw.first_index = caster.first_index;
         draw.index_count = caster.index_count;

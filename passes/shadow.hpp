@@ -6,10 +6,10 @@
 #include <optional>
 #include <span>
 
-#include "engine/graph.hpp"
-#include "engine/model.hpp"
+#include "engine/graph/graph.hpp"
+#include "head/model.hpp"
 #include "shaders/shared/shadow.h"
-#include "wound/shading.hpp"
+#include "wound/optics/shading.hpp"
 
 namespace passes {
 
@@ -17,11 +17,11 @@ inline constexpr std::uint32_t shadow_size = 512; // texels; 0.7 mm on a head: a
 
 /// The frustum (parallel for a directional light) that just holds the box. Nothing when the light stands in
 /// or too near the box for one picture to hold all of it: such a light casts no shadow here.
-std::optional<shared::Shadow> fit_shadow(const wound::Light& light, const glm::vec3& box_min,
+std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::vec3& box_min,
                                          const glm::vec3& box_max);
 
 /// Depth of the given primitives, D32, seen by `shadow`. Leave out what light passes through, such as lashes.
-engine::ImageId add_shadow(engine::Graph& graph, const shared::Shadow& shadow, const engine::MeshBuffer& mesh,
-                           std::span<const engine::Primitive> casters);
+graph::ImageId add_shadow(graph::Graph& graph, const shared::Shadow& shadow, const graph::Mesh& mesh,
+                          std::span<const head::Primitive> casters);
 
 } // namespace passes

@@ -6,14 +6,14 @@
 
 namespace passes {
 
-engine::ImageId add_split(engine::Graph& graph, engine::ImageId left, engine::ImageId right, double divider)
+graph::ImageId add_split(graph::Graph& graph, graph::ImageId left, graph::ImageId right, double divider)
 {
-    const engine::ImageDesc size = graph.images[left.index].desc;
+    const graph::ImageDesc size = graph.images[left.index].desc;
     assert(graph.images[right.index].desc == size);
-    const engine::ImageId both = graph.image("split", {size.width, size.height, VK_FORMAT_R8G8B8A8_UNORM});
-    engine::ComputePass& pass = graph.compute("split", "split.comp");
-    pass.sample("left_picture", left, engine::Sampler::NearestClamp);
-    pass.sample("right_picture", right, engine::Sampler::NearestClamp);
+    const graph::ImageId both = graph.image("split", {size.width, size.height, VK_FORMAT_R8G8B8A8_UNORM});
+    graph::ComputePass& pass = graph.compute("split", "split.comp");
+    pass.sample("left_picture", left, graph::Sampler::NearestClamp);
+    pass.sample("right_picture", right, graph::Sampler::NearestClamp);
     pass.store("both", both);
     pass.uniform("Divider_", std::int32_t(std::lround(std::clamp(divider, 0.0, 1.0) * size.width)));
     pass.dispatch(size.width, size.height);

@@ -4,23 +4,23 @@
 
 namespace passes {
 
-Backdrop backdrop_of(const Canvas& canvas)
+Backdrop backdrop_of(const ViewportTile& tile)
 {
-    if (canvas.transparent)
+    if (tile.transparent)
         return {.transparent = true};
     const glm::vec3 top{0.045f, 0.05f, 0.058f}, bottom{0.17f, 0.18f, 0.195f};
-    const auto at = [&](double y) { return glm::mix(top, bottom, float(y / canvas.picture[1])); };
-    return {at(canvas.corner[1]), at(double(canvas.corner[1]) + canvas.size[1])};
+    const auto at = [&](double y) { return glm::mix(top, bottom, float(y / tile.picture[1])); };
+    return {at(tile.corner[1]), at(double(tile.corner[1]) + tile.size[1])};
 }
 
-engine::ImageId add_tonemap(engine::Graph& graph, engine::ImageId hdr, float exposure, Highlights highlights,
-                            const Backdrop& backdrop)
+graph::ImageId add_tonemap(graph::Graph& graph, graph::ImageId hdr, float exposure, Highlights highlights,
+                           const Backdrop& backdrop)
 {
-    const engine::ImageDesc size = graph.images[hdr.index].desc;
-    const engine::ImageId encoded =
+    const graph::ImageDesc size = graph.images[hdr.index].desc;
+    const graph::ImageId encoded =
         graph.image("encoded", {size.width, size.height, VK_FORMAT_R8G8B8A8_UNORM});
-    engine::ComputePass& pass = graph.compute("tonemap", "tonemap.comp");
-    pass.sample("hdr", hdr, engine::Sampler::NearestClamp);
+    graph::ComputePass& pass = graph.compute("tonemap", "tonemap.comp");
+    pass.sample("hdr", hdr, graph::Sampler::NearestClamp);
     pass.store("encoded", encoded);
     struct
     {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "engine/graph.hpp"
-#include "passes/canvas.hpp"
+#include "engine/graph/graph.hpp"
+#include "passes/viewport_tile.hpp"
 
 namespace passes {
 
@@ -22,12 +22,12 @@ struct Backdrop
     bool transparent = false;
 };
 /// The studio's, from the top of the whole picture to its bottom; of a tile, its part of that.
-Backdrop backdrop_of(const Canvas& canvas);
+Backdrop backdrop_of(const ViewportTile& tile);
 
 /// Adds one pass. `hdr` is linear Rec. 709, premultiplied by its alpha; the result, of the same size, is
 /// RGBA8 UNORM holding sRGB codes: opaque, or with a transparent backdrop straight alpha. `exposure` in
 /// stops: each doubles the light. No dither, so that equal frames give equal files.
-engine::ImageId add_tonemap(engine::Graph& graph, engine::ImageId hdr, float exposure,
-                            Highlights highlights = Highlights::SoftShoulder, const Backdrop& backdrop = {});
+graph::ImageId add_tonemap(graph::Graph& graph, graph::ImageId hdr, float exposure,
+                           Highlights highlights = Highlights::SoftShoulder, const Backdrop& backdrop = {});
 
 } // namespace passes

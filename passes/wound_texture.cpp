@@ -6,7 +6,7 @@
 
 namespace passes {
 
-WoundMaps upload_wound(const engine::Device& device, const wound::Patch& patch)
+WoundMaps upload_wound(const gpu::Device& device, const wound::Patch& patch)
 {
     cv::Mat4f color(patch.color.size());
     const cv::Mat sources[] = {patch.color, patch.opacity};
@@ -19,10 +19,10 @@ WoundMaps upload_wound(const engine::Device& device, const wound::Patch& patch)
     shape.convertTo(half_shape, CV_16F);
 
     WoundMaps maps;
-    maps.color = std::make_shared<const engine::Texture>(device, half_color, engine::Encoding::Linear, true,
-                                                         "day 0 color");
-    maps.shape = std::make_shared<const engine::Texture>(device, half_shape, engine::Encoding::Linear, true,
-                                                         "day 0 shape");
+    maps.color =
+        std::make_shared<const gpu::Texture>(device, half_color, gpu::Encoding::Linear, true, "day 0 color");
+    maps.shape =
+        std::make_shared<const gpu::Texture>(device, half_shape, gpu::Encoding::Linear, true, "day 0 shape");
     maps.bed_luminance = wound::bed_luminance(patch);
     maps.width_mm = patch.width_mm;
     maps.size = patch.color.cols;
@@ -30,11 +30,11 @@ WoundMaps upload_wound(const engine::Device& device, const wound::Patch& patch)
     return maps;
 }
 
-WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, const WoundMaps& maps,
+WoundTexture add_wound_texture(graph::Graph& graph, const std::string& suffix, const WoundMaps& maps,
                                const wound::WoundDay& today)
 {
     const auto width = std::uint32_t(maps.region.width), height = std::uint32_t(maps.region.height);
-    const engine::ImageDesc desc{width, height, VK_FORMAT_R16G16B16A16_SFLOAT};
+    const graph::ImageDesc desc{width, height, VK_FORMAT_R16G16B16A16_SFLOAT};
     const glm::dvec2 extent(maps.region.width, maps.region.height), begin(maps.region.x, maps.region.y);
     const WoundTexture texture{
         graph.image("wound_color" + suffix, desc), graph.image("wound_state" + suffix, desc),
@@ -51,14 +51,14 @@ WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, 
     params.phase = {float(today.phase.clot), float(today.phase.fibrin), float(today.phase.granulation),
                     float(today.phase.rim), float(maps.bed_luminance)};
 
-    engine::ComputePass& warp = graph.compute("wound_texture" + suffix, "wound_texture.comp");
-    warp.constant("RUNG", std::uint32_t(today.border_warp.rung));
+    graph::ComputePass& warp = graph.compute("wound_texture" + suffix, "wound_texture.comp");
+    warp.constant("WARP_MODEL", std::uint32_t(today.border_warp.model));
     warp.constant("BED_APART", today.unhealed_ratio != today.border_ratio);
     warp.constant("PHASES", today.in_phases);
     warp.sample("day0_color", graph.import("day0_color" + suffix, *maps.color),
-                engine::Sampler::LinearClampMips);
+                graph::Sampler::LinearClampMips);
     warp.sample("day0_shape", graph.import("day0_shape" + suffix, *maps.shape),
-                engine::Sampler::LinearClampMips);
+                graph::Sampler::LinearClampMips);
     warp.store("color", texture.color);
     warp.store("state", texture.state);
     warp.uniform("Today_", params);
@@ -66,7 +66,7 @@ WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, 
     warp.dispatch(width, height);
 
     const double texel_mm = maps.width_mm / maps.size;
-    engine::ComputePass& relief = graph.compute("wound_relief" + suffix, "wound_relief.comp");
+    graph::ComputePass& relief = graph.compute("wound_relief" + suffix, "wound_relief.comp");
     relief.sample("state", texture.state);
     relief.store("relief", texture.relief);
     relief.uniform("Relief_",

@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "engine/device.hpp"
-#include "engine/graph.hpp"
-#include "engine/texture.hpp"
+#include "engine/gpu/device.hpp"
+#include "engine/gpu/texture.hpp"
+#include "engine/graph/graph.hpp"
 #include "shaders/shared/glsl.h"
 #include "wound/wound.hpp"
 
@@ -15,31 +15,31 @@ namespace passes {
 /// A wound's day-0 maps on the device, uploaded once.
 struct WoundMaps
 {
-    std::shared_ptr<const engine::Texture> color; // rgb linear reflectance, a opacity
-    std::shared_ptr<const engine::Texture> shape; // r depth in mm, g coverage of the mask
-    double bed_luminance = 0;                     // median of the open bed
-    double width_mm = 0;                          // of the patch
-    int size = 0;                                 // texels a side
-    cv::Rect region; // texels that today's maps hold; all of them unless it is set
+    std::shared_ptr<const gpu::Texture> color; // rgb linear reflectance, a opacity
+    std::shared_ptr<const gpu::Texture> shape; // r depth in mm, g coverage of the mask
+    double bed_luminance = 0;                  // median of the open bed
+    double width_mm = 0;                       // of the patch
+    int size = 0;                              // texels a side
+    cv::Rect region;                           // texels that today's maps hold; all of them unless it is set
 };
-WoundMaps upload_wound(const engine::Device& device, const wound::Patch& patch);
+WoundMaps upload_wound(const gpu::Device& device, const wound::Patch& patch);
 
 /// Today's maps of the patch's region, RGBA16F; a label pass finds its place in them by project_wound() in
 /// shaders/lib/wound_projection.glsl.
 struct WoundTexture
 {
-    engine::ImageId color;  // rgb: linear reflectance W; a: opacity, 0 the face's own skin
-    engine::ImageId state;  // day 0's depth in mm, r: of the open bed's hollow, g: of the injury inside the
-                            // outer border; b: coverage of the open bed; a: coverage inside the border
-    engine::ImageId relief; // rg: slope of the depth along u and v, mm per mm; b: occlusion of the hollow, 1
-                            // open; a: depth today in mm
+    graph::ImageId color;  // rgb: linear reflectance W; a: opacity, 0 the face's own skin
+    graph::ImageId state;  // day 0's depth in mm, r: of the open bed's hollow, g: of the injury inside the
+                           // outer border; b: coverage of the open bed; a: coverage inside the border
+    graph::ImageId relief; // rg: slope of the depth along u and v, mm per mm; b: occlusion of the hollow, 1
+                           // open; a: depth today in mm
     shared::vec2 uv_scale{.5}, uv_offset{.5}; // uv of the images = scale * patch coordinates + offset
 };
 
 /// The images' size is maps.region's, which must stay as the days pass.
 /// `suffix` tells the wounds of one scene apart in the names of passes and images: "" for the first, " 2" for
 /// the second.
-WoundTexture add_wound_texture(engine::Graph& graph, const std::string& suffix, const WoundMaps& maps,
+WoundTexture add_wound_texture(graph::Graph& graph, const std::string& suffix, const WoundMaps& maps,
                                const wound::WoundDay& today);
 
 } // namespace passes

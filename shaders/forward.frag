@@ -69,7 +69,7 @@ void main()
 
     frame = frame_of(bend_to_viewer(skin.normal, to_viewer), v_tangent);
     ShadingParams params = shading;
-    // A wet bed mirrors in a narrower lobe: small glints rather than a sheen. Taut new epithelium a little so.
+    // A wet bed mirrors in a narrower lobe: small specular_highlights rather than a sheen. Taut new epithelium a little so.
     params.slope *= part.slope * (1 - 0.4 * skin.wetness) * (1 - 0.25 * skin.tautness);
     params.rho_s *= part.specular * (1 - 0.4 * skin.wetness + 0.15 * skin.tautness);
     const vec3 local_viewer = to_viewer * frame;

@@ -5,7 +5,7 @@
 #include "lib/phases.glsl"
 #include "shared/wound.h"
 
-layout(constant_id = 0) const uint RUNG = 1;          // wound::WarpRung
+layout(constant_id = 0) const uint WARP_MODEL = 1;          // wound::WarpModel
 layout(constant_id = 1) const bool BED_APART = false; // the bed closes inside the border by a warp of its own
 layout(constant_id = 2) const bool PHASES = false;    // the bed passes through clot, fibrin and granulation
 
@@ -32,14 +32,14 @@ void main()
         return;
     const vec2 p = (vec2(texel + today.first_texel) + 0.5) * 2 / vec2(textureSize(day0_color, 0)) - 1;
 
-    const vec2 from_border = warp_backward(RUNG, today.border, p);
+    const vec2 from_border = warp_backward(WARP_MODEL, today.border, p);
     const float border_mip = mip_of(p, from_border, today.border.center);
     vec4 day0 = textureLod(day0_color, from_border * 0.5 + 0.5, border_mip);
     vec2 border_shape = textureLod(day0_shape, from_border * 0.5 + 0.5, border_mip).rg;
     vec2 bed_shape = border_shape;
     if (BED_APART)
     {
-        const vec2 from_bed = warp_backward(RUNG, today.bed, p);
+        const vec2 from_bed = warp_backward(WARP_MODEL, today.bed, p);
         bed_shape = textureLod(day0_shape, from_bed * 0.5 + 0.5, mip_of(p, from_bed, today.bed.center)).rg;
     }
     // New skin ends softly: its coverage comes from a mip level that blurs about a millimetre, once there is any new skin.

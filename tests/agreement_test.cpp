@@ -1,12 +1,12 @@
 // Predicted against observed masks.
-#include "wound/agreement.hpp"
+#include "wound/photo/agreement.hpp"
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
 #include "tests/wound_photographs.hpp"
+#include "wound/photo/segmentation.hpp"
 #include "wound/prepare.hpp"
-#include "wound/segmentation.hpp"
 
 namespace {
 

@@ -1,11 +1,11 @@
 // Tables of areas in every dialect, and hostile ones.
-#include "wound/area_table.hpp"
+#include "wound/healing/area_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sstream>
 
-#include "wound/input_error.hpp"
+#include "base/input_error.hpp"
 
 namespace {
 
@@ -23,7 +23,7 @@ std::string refusal(const std::string& text)
 {
     try {
         read(text);
-    } catch (const cicatrix::InputError& error) {
+    } catch (const base::InputError& error) {
         return error.what();
     }
     return "";
@@ -133,8 +133,7 @@ TEST(AreaTable, HostileTablesAreRefusedWithLineAndCure)
     EXPECT_THAT(refusal("day,area\n0,5,5\n3,1,25\n"), HasSubstr("line 2 has 3 columns, the header 2"));
     EXPECT_THAT(refusal("0,5,5\n3,1,25\n"), HasSubstr("where commas are decimal, separate by semicolons"));
     EXPECT_THAT(refusal("day,area\n0,1\n3,1e308\n"), HasSubstr("times that of the first day"));
-    EXPECT_THROW(wound::read_area_table(std::filesystem::path("/nonexistent/areas.csv")),
-                 cicatrix::InputError);
+    EXPECT_THROW(wound::read_area_table(std::filesystem::path("/nonexistent/areas.csv")), base::InputError);
 }
 
 } // namespace

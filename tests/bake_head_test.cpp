@@ -5,19 +5,19 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
-#include "apps/bake_atlas.hpp"
-#include "apps/bake_bust.hpp"
-#include "apps/bake_head.hpp"
-#include "apps/bake_occlusion.hpp"
-#include "apps/bake_skin.hpp"
-#include "apps/bake_texture.hpp"
-#include "apps/quad_mesh.hpp"
+#include "base/input_error.hpp"
+#include "head/occlusion.hpp"
 #include "tests/temporary_folder.hpp"
-#include "wound/input_error.hpp"
+#include "tools/head/bake_atlas.hpp"
+#include "tools/head/bake_bust.hpp"
+#include "tools/head/bake_head.hpp"
+#include "tools/head/bake_skin.hpp"
+#include "tools/head/bake_texture.hpp"
+#include "tools/head/quad_mesh.hpp"
 
 namespace {
 
-using app::QuadMesh;
+using head_tool::QuadMesh;
 
 bool near(glm::dvec3 a, glm::dvec3 b, double tolerance = 1e-12)
 {
@@ -66,7 +66,7 @@ QuadMesh sheet(int columns, int rows, double size, glm::dvec3 corner)
 
 TEST(CatmullClark, RefinesACubeToTheKnownVertices)
 {
-    const QuadMesh fine = app::subdivide(cube());
+    const QuadMesh fine = head_tool::subdivide(cube());
     EXPECT_EQ(fine.positions.size(), 8u + 12u + 6u);
     EXPECT_EQ(fine.faces.size(), 24u);
     EXPECT_TRUE(has_vertex(fine, glm::dvec3(5.0 / 9.0)));
@@ -78,7 +78,7 @@ TEST(CatmullClark, ConvergesToASmoothClosedSurfaceThatFacesOutwards)
 {
     QuadMesh mesh = cube();
     for (int step = 0; step < 3; ++step)
-        mesh = app::subdivide(mesh);
+        mesh = head_tool::subdivide(mesh);
     EXPECT_EQ(mesh.positions.size(), mesh.faces.size() + 2); // Euler: V - E + F = 2 with E = 2 F
     for (const QuadMesh::Face& face : mesh.faces) {
         const auto at = [&](int c) { return mesh.positions[face.vertex[c]]; };
@@ -88,7 +88,7 @@ TEST(CatmullClark, ConvergesToASmoothClosedSurfaceThatFacesOutwards)
 
 TEST(CatmullClark, KeepsAFlatSheetFlatWithItsOutlineAndCoordinates)
 {
-    const QuadMesh fine = app::subdivide(sheet(3, 2, 1.0, {0, 0, 0}));
+    const QuadMesh fine = head_tool::subdivide(sheet(3, 2, 1.0, {0, 0, 0}));
     EXPECT_EQ(fine.faces.size(), 24u);
     for (const glm::dvec3& p : fine.positions)
         EXPECT_TRUE(p.z == 0 && p.x >= 0 && p.x <= 3 && p.y >= 0 && p.y <= 2);
@@ -103,21 +103,21 @@ TEST(CatmullClark, KeepsAFlatSheetFlatWithItsOutlineAndCoordinates)
 
 TEST(TextureCharts, AreNumberedByConnection)
 {
-    EXPECT_EQ(app::texture_charts(cube()), (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}));
-    EXPECT_EQ(app::texture_charts(sheet(2, 1, 1.0, {0, 0, 0})), (std::vector<std::uint32_t>{0, 0}));
+    EXPECT_EQ(head_tool::texture_charts(cube()), (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}));
+    EXPECT_EQ(head_tool::texture_charts(sheet(2, 1, 1.0, {0, 0, 0})), (std::vector<std::uint32_t>{0, 0}));
 }
 
 TEST(Bust, IsCutWhereItsBaseLiesAndNeighboursShareTheCut)
 {
-    const app::CutMesh bust = app::cut_bust(sheet(2, 40, 0.1, {-0.1, 4.8, 0.3}));
+    const head_tool::CutMesh bust = head_tool::cut_bust(sheet(2, 40, 0.1, {-0.1, 4.8, 0.3}));
     ASSERT_FALSE(bust.head.empty());
     double lowest = 1e9, area = 0;
     std::set<std::pair<double, double>> places;
     std::set<std::uint32_t> vertices;
-    for (const app::CutMesh::Triangle& t : bust.head) {
+    for (const head_tool::CutMesh::Triangle& t : bust.head) {
         const auto at = [&](int c) { return bust.positions[t[c].vertex]; };
         area += 0.5 * glm::cross(at(1) - at(0), at(2) - at(0)).z;
-        for (const app::CutMesh::Corner& corner : t) {
+        for (const head_tool::CutMesh::Corner& corner : t) {
             const glm::dvec3 p = bust.positions[corner.vertex];
             lowest = std::min(lowest, p.y);
             places.emplace(p.x, p.y);
@@ -135,12 +135,12 @@ TEST(Bust, IsCutWhereItsBaseLiesAndNeighboursShareTheCut)
 
 TEST(SkinAtlas, HoldsBothChartsApartUndistortedAndUnmirrored)
 {
-    app::CutMesh bust;
+    head_tool::CutMesh bust;
     bust.uvs = {{0.64, 0.15}, {0.99, 0.15}, {0.99, 0.82}, {0.1, 0.85}, {0.6, 0.85}, {0.6, 0.97}};
     bust.positions.resize(6);
     bust.head = {{{{0, 0}, {1, 1}, {2, 2}}}};
     bust.torso = {{{{3, 3}, {4, 4}, {5, 5}}}};
-    const app::SkinAtlas atlas = app::lay_out_skin(bust, 1024);
+    const head_tool::SkinAtlas atlas = head_tool::lay_out_skin(bust, 1024);
     for (int i = 0; i < 6; ++i) {
         const glm::dvec2 uv = i < 3 ? atlas.head(bust.uvs[i]) : atlas.bust(bust.uvs[i]);
         EXPECT_TRUE(uv.x > 0 && uv.x < 1 && uv.y > 0 && uv.y < 1);
@@ -154,14 +154,14 @@ TEST(SkinAtlas, HoldsBothChartsApartUndistortedAndUnmirrored)
 
 TEST(SkinAtlas, PaintsWhatThePlacementShowsAndFillsTheBlank)
 {
-    app::SkinAtlas atlas;
+    head_tool::SkinAtlas atlas;
     atlas.size = 64;
-    atlas.head = app::as_painted;
-    atlas.bust = app::as_painted;
+    atlas.head = head_tool::as_painted;
+    atlas.bust = head_tool::as_painted;
     atlas.border = 0.5;
     cv::Mat3b painting(64, 64, cv::Vec3b(120, 100, 80)); // its corner is the blank colour
     cv::circle(painting, {32, 32}, 20, cv::Scalar(200, 150, 120), cv::FILLED);
-    const cv::Mat3b picture = app::paint_skin(atlas, painting);
+    const cv::Mat3b picture = head_tool::paint_skin(atlas, painting);
     EXPECT_EQ(picture(32, 32), cv::Vec3b(200, 150, 120));
     for (const cv::Vec3b& texel : picture)
         EXPECT_GT(texel[0], 190);
@@ -180,25 +180,25 @@ TEST(Occlusion, OfAFloorUnderADiscHasTheClosedForm)
         for (int v : {0, 1 + i, 1 + (i + 1) % sides})
             indices.push_back(static_cast<std::uint32_t>(v));
     }
-    const app::TriangleTree tree(positions, indices);
+    const head::TriangleTree tree(positions, indices);
     const std::vector<glm::vec3> floor = {{0, 0, 0}}, up = {{0, 1, 0}}, down = {{0, -1, 0}};
-    EXPECT_NEAR(app::ambient_occlusion(tree, floor, up, 4096, 1.0f)[0], 1 - r * r / (r * r + h * h), 0.01);
-    EXPECT_EQ(app::ambient_occlusion(tree, floor, down, 256, 1.0f)[0], 1.0f);
-    EXPECT_EQ(app::ambient_occlusion(tree, floor, up, 256, 0.9f * h)[0], 1.0f); // out of reach
+    EXPECT_NEAR(head::ambient_occlusion(tree, floor, up, 4096, 1.0f)[0], 1 - r * r / (r * r + h * h), 0.01);
+    EXPECT_EQ(head::ambient_occlusion(tree, floor, down, 256, 1.0f)[0], 1.0f);
+    EXPECT_EQ(head::ambient_occlusion(tree, floor, up, 256, 0.9f * h)[0], 1.0f); // out of reach
 }
 
 TEST(Occlusion, InsideAClosedBoxIsComplete)
 {
-    const app::CutMesh box = app::as_triangles(cube());
+    const head_tool::CutMesh box = head_tool::as_triangles(cube());
     std::vector<glm::vec3> positions(box.positions.begin(), box.positions.end());
     std::vector<std::uint32_t> indices;
-    for (const app::CutMesh::Triangle& t : box.head)
-        for (const app::CutMesh::Corner& corner : t)
+    for (const head_tool::CutMesh::Triangle& t : box.head)
+        for (const head_tool::CutMesh::Corner& corner : t)
             indices.push_back(corner.vertex);
-    const app::TriangleTree tree(positions, indices);
+    const head::TriangleTree tree(positions, indices);
     const std::vector<glm::vec3> points = {{0, 0, 0}, {0.9f, 0.3f, -0.8f}, {0, 2, 0}},
                                  normals(3, glm::vec3(0, 1, 0));
-    EXPECT_THAT(app::ambient_occlusion(tree, points, normals, 256, 10.0f),
+    EXPECT_THAT(head::ambient_occlusion(tree, points, normals, 256, 10.0f),
                 testing::ElementsAre(0.0f, 0.0f, 1.0f));
 }
 
@@ -208,7 +208,7 @@ TEST(Rasterise, CoversEveryTexelOfASquareAndInterpolatesLinearly)
     const std::vector<std::uint32_t> indices = {0, 1, 2, 0, 3, 2}; // the second triangle the other way round
     const std::vector<glm::vec3> values = {{0, 0, 5}, {1, 0, 5}, {1, 1, 5}, {0, 1, 5}};
     cv::Mat1b covered;
-    const cv::Mat3f texture = app::rasterise(uvs, indices, values, {32, 16}, covered);
+    const cv::Mat3f texture = head_tool::rasterise(uvs, indices, values, {32, 16}, covered);
     EXPECT_EQ(cv::countNonZero(covered), 32 * 16);
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 32; ++x)
@@ -222,7 +222,7 @@ TEST(FillUncovered, SpreadsValuesAndKeepsTheCoveredOnes)
     texture(3, 4) = {1, 2, 3};
     texture(30, 40) = {3, 2, 1};
     covered(3, 4) = covered(30, 40) = 255;
-    app::fill_uncovered(texture, covered);
+    head_tool::fill_uncovered(texture, covered);
     EXPECT_EQ(texture(3, 4), cv::Vec3f(1, 2, 3));
     for (const cv::Vec3f& value : texture) {
         EXPECT_GE(value[0], 1 - 1e-5f);
@@ -233,9 +233,9 @@ TEST(FillUncovered, SpreadsValuesAndKeepsTheCoveredOnes)
 }
 
 /// A flat patch of cheek, 0.25 mm a texel.
-app::SkinPlaces flat_cheek()
+head_tool::SkinPlaces flat_cheek()
 {
-    app::SkinPlaces places;
+    head_tool::SkinPlaces places;
     places.position.create(256, 256);
     for (int y = 0; y < 256; ++y)
         for (int x = 0; x < 256; ++x)
@@ -247,8 +247,8 @@ app::SkinPlaces flat_cheek()
 
 TEST(SkinDetail, GivesCheeksTheMeasuredMeanColour)
 {
-    const app::SkinPictures skin =
-        app::detail_skin(cv::Mat3b(256, 256, cv::Vec3b(150, 140, 130)), flat_cheek());
+    const head_tool::SkinPictures skin =
+        head_tool::detail_skin(cv::Mat3b(256, 256, cv::Vec3b(150, 140, 130)), flat_cheek());
     cv::Mat lab;
     cv::cvtColor(skin.color, lab, cv::COLOR_RGBA2RGB);
     lab.convertTo(lab, CV_32F, 1.0 / 255);
@@ -262,8 +262,8 @@ TEST(SkinDetail, GivesCheeksTheMeasuredMeanColour)
 TEST(SkinDetail, ModulatesTheColourByAFewPercentAndIsRepeatable)
 {
     const cv::Mat3b painted(256, 256, cv::Vec3b(200, 150, 125));
-    const app::SkinPictures first = app::detail_skin(painted, flat_cheek()),
-                            second = app::detail_skin(painted, flat_cheek());
+    const head_tool::SkinPictures first = head_tool::detail_skin(painted, flat_cheek()),
+                                  second = head_tool::detail_skin(painted, flat_cheek());
     EXPECT_EQ(cv::norm(first.color, second.color, cv::NORM_INF), 0);
     EXPECT_EQ(cv::norm(first.normal, second.normal, cv::NORM_INF), 0);
     cv::Scalar mean, deviation;
@@ -276,7 +276,7 @@ TEST(SkinDetail, ModulatesTheColourByAFewPercentAndIsRepeatable)
 TEST(SkinDetail, ReliefIsUnitNormalsThatLeanNoWayOnAverage)
 {
     const cv::Mat3b painted(256, 256, cv::Vec3b(200, 150, 125));
-    const app::SkinPictures skin = app::detail_skin(painted, flat_cheek());
+    const head_tool::SkinPictures skin = head_tool::detail_skin(painted, flat_cheek());
     cv::Scalar mean, deviation;
     cv::meanStdDev(skin.normal, mean, deviation);
     EXPECT_NEAR(mean[0], 127.5, 1.5);
@@ -293,8 +293,8 @@ TEST(SkinDetail, APitOfThePaintLeansItsNormalsInwards)
     cv::Mat3b painted(256, 256, cv::Vec3b(200, 150, 125));
     cv::circle(painted, {128, 128}, 4, cv::Scalar(120, 80, 60), cv::FILLED);
     const cv::Mat3b plain(256, 256, cv::Vec3b(200, 150, 125));
-    const cv::Mat3b with = app::detail_skin(painted, flat_cheek()).normal,
-                    without = app::detail_skin(plain, flat_cheek()).normal;
+    const cv::Mat3b with = head_tool::detail_skin(painted, flat_cheek()).normal,
+                    without = head_tool::detail_skin(plain, flat_cheek()).normal;
     EXPECT_LT(with(128, 132)[0], without(128, 132)[0] - 5);
     EXPECT_GT(with(128, 124)[0], without(128, 124)[0] + 5);
     EXPECT_LT(with(124, 128)[1], without(124, 128)[1] - 5);
@@ -305,9 +305,9 @@ TEST(BakeHead, NamesTheFileThatAPackageLacks)
 {
     const TemporaryFolder folder;
     try {
-        app::bake_head({folder.path(), {}}, folder / "head.glb", [](std::string_view) {});
+        head_tool::bake_head({folder.path(), {}}, folder / "head.glb", [](std::string_view) {});
         FAIL() << "accepted an empty folder";
-    } catch (const cicatrix::InputError& error) {
+    } catch (const base::InputError& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr("human_full_size.json: there is no such file"));
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "head.glb"));
@@ -318,8 +318,8 @@ TEST(BakeHead, PutsTheDefaultHeadIntoTheCacheFolder)
     const char* before = std::getenv("XDG_CACHE_HOME");
     const std::string saved = before ? before : "";
     setenv("XDG_CACHE_HOME", "/somewhere", 1);
-    EXPECT_EQ(app::default_head_path().string(),
-              fmt::format("/somewhere/cicatrix/head-v{}.glb", app::baked_head_version));
+    EXPECT_EQ(head::default_head_path().string(),
+              fmt::format("/somewhere/cicatrix/head-v{}.glb", head::default_head_version));
     before ? setenv("XDG_CACHE_HOME", saved.c_str(), 1) : unsetenv("XDG_CACHE_HOME");
 }
 

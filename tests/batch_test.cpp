@@ -7,20 +7,20 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
-#include "apps/coco.hpp"
-#include "apps/json_fields.hpp"
-#include "apps/variations.hpp"
-#include "engine/file.hpp"
-#include "engine/image_io.hpp"
+#include "apps/batch/variations.hpp"
+#include "base/file.hpp"
+#include "base/image_io.hpp"
+#include "base/input_error.hpp"
+#include "base/json_fields.hpp"
 #include "shaders/shared/labels.h"
+#include "stage/coco.hpp"
 #include "tests/process.hpp"
 #include "tests/small_head.hpp"
 #include "tests/temporary_folder.hpp"
-#include "wound/input_error.hpp"
 
 namespace {
 
-using app::Variation;
+using batch_command::Variation;
 using nlohmann::json;
 using testing::HasSubstr;
 
@@ -52,7 +52,7 @@ void expect_sound(const json& coco, const std::filesystem::path& folder)
         categories.insert(category.at("id").get<int>());
     for (const json& image : coco.at("images")) {
         EXPECT_TRUE(images.insert(image.at("id").get<int>()).second);
-        const cv::Mat3b picture = engine::read_rgb(folder / image.at("file_name").get<std::string>());
+        const cv::Mat3b picture = base::read_rgb(folder / image.at("file_name").get<std::string>());
         EXPECT_EQ(picture.size(), cv::Size(image.at("width"), image.at("height")));
     }
     for (const json& region : coco.at("annotations")) {
@@ -71,7 +71,7 @@ std::string refusal(const std::function<void()>& work)
 {
     try {
         work();
-    } catch (const cicatrix::InputError& error) {
+    } catch (const base::InputError& error) {
         return error.what();
     }
     return "nothing was refused";
@@ -80,15 +80,15 @@ std::string refusal(const std::function<void()>& work)
 class Batch : public testing::Test
 {
   protected:
-    std::vector<Variation> read(const std::string& table, const app::Scene& base = {}) const
+    std::vector<Variation> read(const std::string& table, const scene::Scene& base = {}) const
     {
-        return app::read_variations(folder_.with("table.csv", table), base);
+        return batch_command::read_variations(folder_.with("table.csv", table), base);
     }
     std::string refused(const std::string& table) const
     {
         return refusal([&] {
             for (const Variation& variation : read(table))
-                app::check_files(variation);
+                batch_command::check_files(variation);
         });
     }
     Outcome batch(std::vector<std::string> more) const
@@ -106,24 +106,24 @@ class Batch : public testing::Test
 TEST(Coco, MasksSurviveTheirRunLengths)
 {
     cv::Mat1b mask = cv::Mat1b::zeros(7, 5);
-    EXPECT_EQ(app::run_lengths(mask).at("counts"), json({35}));
+    EXPECT_EQ(stage::run_lengths(mask).at("counts"), json({35}));
     mask(0, 0) = mask(6, 1) = mask(0, 2) = mask(3, 4) = mask(4, 4) = 255;
-    const json rle = app::run_lengths(mask);
+    const json rle = stage::run_lengths(mask);
     EXPECT_EQ(rle.at("size"), json({7, 5}));
     EXPECT_EQ(rle.at("counts")[0], 0) << "the first run is of what is outside";
     EXPECT_TRUE(same(decoded(rle), mask));
     mask.setTo(255);
-    EXPECT_EQ(app::run_lengths(mask).at("counts"), json({0, 35}));
+    EXPECT_EQ(stage::run_lengths(mask).at("counts"), json({0, 35}));
 }
 
 TEST(Coco, JoinedDocumentsKeepTheirRegionsAtTheirImages)
 {
     cv::Mat1b mask = cv::Mat1b::zeros(4, 4);
     mask(1, 2) = 255;
-    app::Coco one, all;
-    one.add_region(one.add_image("a.png", mask.size(), {{"day", 3}}), app::CocoCategory::OpenBed, mask, {});
-    one.add_region(one.add_image("b.png", mask.size(), {}), app::CocoCategory::Wound, mask, {});
-    one.add_region(1, app::CocoCategory::NewEpithelium, cv::Mat1b::zeros(4, 4), {}); // nothing there
+    stage::Coco one, all;
+    one.add_region(one.add_image("a.png", mask.size(), {{"day", 3}}), stage::CocoCategory::OpenBed, mask, {});
+    one.add_region(one.add_image("b.png", mask.size(), {}), stage::CocoCategory::Wound, mask, {});
+    one.add_region(1, stage::CocoCategory::NewEpithelium, cv::Mat1b::zeros(4, 4), {}); // nothing there
     all.join(one.document(), "first");
     all.join(one.document(), "second");
     const json joined = all.document();
@@ -137,7 +137,7 @@ TEST(Coco, JoinedDocumentsKeepTheirRegionsAtTheirImages)
 
 TEST_F(Batch, RowsChangeTheFieldsTheyName)
 {
-    app::Scene base;
+    scene::Scene base;
     base.exposure_stops = 1.5;
     base.wounds[0].photo = "old.png";
     base.wounds[0].mask = "old_mask.png";
@@ -151,7 +151,7 @@ TEST_F(Batch, RowsChangeTheFieldsTheyName)
     EXPECT_EQ(rows[0].name, "a");
     EXPECT_EQ(rows[0].scene.wounds.size(), 2u);
     EXPECT_EQ(rows[0].scene.wounds[0].width_mm, 12.5);
-    EXPECT_EQ(std::get<passes::FacePoint>(rows[0].scene.wounds[0].place).y, .2);
+    EXPECT_EQ(std::get<head::FacePoint>(rows[0].scene.wounds[0].place).y, .2);
     EXPECT_EQ(rows[0].scene.wounds[0].photo, folder_ / "new.png");
     EXPECT_TRUE(rows[0].scene.wounds[0].mask.empty()) << "it belonged to the other photograph";
     EXPECT_EQ(rows[0].scene.days, (std::vector<double>{0, 5}));
@@ -170,14 +170,14 @@ TEST_F(Batch, ScenesCanBeColumnsAndFolders)
     const auto rows = read("scene,wounds.0.seed\nwide.json,9\n,10\n");
     EXPECT_EQ(rows[0].scene.wounds[0].width_mm, 50);
     EXPECT_EQ(rows[0].scene.wounds[0].seed, 9u);
-    EXPECT_EQ(rows[1].scene.wounds[0].width_mm, app::WoundScene{}.width_mm);
+    EXPECT_EQ(rows[1].scene.wounds[0].width_mm, scene::Wound{}.width_mm);
     EXPECT_EQ(rows[0].name, "0001");
 
     TemporaryFolder scenes;
     scenes.with("b.json", "{}");
     scenes.with("a.json", R"({"days": "3"})");
     scenes.with("notes.txt", "no scene");
-    const auto files = app::read_variations(scenes / ".", {});
+    const auto files = batch_command::read_variations(scenes / ".", {});
     ASSERT_EQ(files.size(), 2u);
     EXPECT_EQ(files[0].name, "a");
     EXPECT_EQ(files[0].scene.days, std::vector<double>{3});
@@ -212,7 +212,7 @@ TEST(Shares, AreDisjointAndTogetherAll)
             std::multiset<std::size_t> seen;
             std::size_t smallest = count, largest = 0;
             for (std::size_t share = 1; share <= shares; ++share) {
-                const auto mine = app::share_of(count, share, shares);
+                const auto mine = batch_command::share_of(count, share, shares);
                 seen.insert(mine.begin(), mine.end());
                 smallest = std::min(smallest, mine.size());
                 largest = std::max(largest, mine.size());
@@ -225,9 +225,9 @@ TEST(Shares, AreDisjointAndTogetherAll)
 
 TEST_F(Batch, RandomTablesAreReproducibleAndValid)
 {
-    app::RandomVariations options{.count = 200, .seed = 5};
-    const std::string table = app::random_variations(options);
-    EXPECT_EQ(table, app::random_variations(options));
+    batch_command::RandomVariations options{.count = 200, .seed = 5};
+    const std::string table = batch_command::random_variations(options);
+    EXPECT_EQ(table, batch_command::random_variations(options));
     const auto rows = read(table);
     ASSERT_EQ(rows.size(), 200u);
     std::set<std::string> tissues, kinds;
@@ -241,11 +241,11 @@ TEST_F(Batch, RandomTablesAreReproducibleAndValid)
     EXPECT_EQ(kinds.size(), 3u);
     EXPECT_GT(days.size(), 20u);
     options.seed = 6;
-    EXPECT_NE(table, app::random_variations(options));
+    EXPECT_NE(table, batch_command::random_variations(options));
     options.photos = {"a, b.png", "c.png"};
     options.heads = {head_};
     std::set<std::string> photos;
-    for (const Variation& row : read(app::random_variations(options)))
+    for (const Variation& row : read(batch_command::random_variations(options)))
         photos.insert(row.scene.wounds[0].photo.filename());
     EXPECT_EQ(photos, (std::set<std::string>{"a, b.png", "c.png"}));
 }
@@ -289,7 +289,7 @@ TEST_F(Batch, SharesMakeTheWholeAndAStoppedOneGoesOn)
 
 TEST_F(Batch, AFailingVariationDoesNotStopTheOthers)
 {
-    engine::write_png(folder_ / "blank.png", cv::Mat3b(64, 64, cv::Vec3b(200, 160, 140)));
+    base::write_png(folder_ / "blank.png", cv::Mat3b(64, 64, cv::Vec3b(200, 160, 140)));
     folder_.with("broken.glb", "no head");
     folder_.with("table.csv", "name,head,wounds.0.photo,wounds.0.at,days\n"
                               "bad,,blank.png,,0\n"
@@ -347,7 +347,7 @@ TEST_F(Batch, CaptureWritesLabelsBesideItsPictures)
         const json& files = frame.at("labels");
         for (const auto& [what, file] : files.items())
             EXPECT_TRUE(std::filesystem::exists(out / file.get<std::string>())) << what;
-        const cv::Mat1b mask = engine::read_mask(out / files.at("mask").get<std::string>());
+        const cv::Mat1b mask = base::read_mask(out / files.at("mask").get<std::string>());
         const json& wound = frame.at("wounds")[0];
         EXPECT_EQ(wound.at("bed_px").get<int>() + wound.at("new_epithelium_px").get<int>(),
                   cv::countNonZero(mask));

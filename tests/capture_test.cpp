@@ -7,17 +7,17 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/camera_record.hpp"
-#include "apps/capture.hpp"
-#include "apps/renderer.hpp"
-#include "apps/shots.hpp"
-#include "engine/image_io.hpp"
+#include "base/color.hpp"
+#include "base/image_io.hpp"
+#include "base/input_error.hpp"
 #include "passes/tonemap.hpp"
+#include "scene/shots.hpp"
+#include "stage/camera_record.hpp"
+#include "stage/capture.hpp"
+#include "stage/renderer.hpp"
 #include "tests/gpu.hpp"
 #include "tests/small_head.hpp"
 #include "tests/temporary_folder.hpp"
-#include "wound/color.hpp"
-#include "wound/input_error.hpp"
 
 namespace {
 
@@ -25,9 +25,9 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 /// The renderer that these tests share; it watches its own device.
-app::Renderer& renderer()
+stage::Renderer& renderer()
 {
-    static app::Renderer shared({.validation = true});
+    static stage::Renderer shared({.validation = true});
     return shared;
 }
 
@@ -40,14 +40,14 @@ class Capture : public testing::Test
         for (const std::string& message : renderer().device.validation_messages())
             ADD_FAILURE() << "validation: " << message;
     }
-    static app::Stage stage(const app::Scene& scene)
+    static stage::Stage stage(const scene::Scene& scene)
     {
-        return {renderer().device, scene, app::Stage::prepare(scene)};
+        return {renderer().device, stage::Stage::prepare(scene)};
     }
-    static app::Drawing draw(const app::Stage& on, const passes::Camera& camera,
-                             const app::DrawOptions& options, double day = 5)
+    static stage::Drawing draw(const stage::Stage& on, const head::Camera& camera,
+                               const stage::DrawOptions& options, double day = 5)
     {
-        return app::draw(renderer(), on, {day, "", camera, "test"}, options);
+        return stage::draw(renderer(), on, {day, "", camera, "test"}, options);
     }
 };
 
@@ -65,7 +65,7 @@ cv::Mat3b to_srgb8(const cv::Mat3f& linear)
     cv::Mat3b codes(linear.size());
     for (int y = 0; y < linear.rows; ++y)
         for (int x = 0; x < linear.cols; ++x)
-            codes(y, x) = wound::srgb8_from_linear(cv::Vec3d(linear(y, x)));
+            codes(y, x) = base::srgb8_from_linear(cv::Vec3d(linear(y, x)));
     return codes;
 }
 
@@ -76,7 +76,7 @@ cv::Mat3f composited(const cv::Mat4b& rgba, const std::function<cv::Vec3f(int y)
     for (int y = 0; y < rgba.rows; ++y)
         for (int x = 0; x < rgba.cols; ++x) {
             const cv::Vec4b& pixel = rgba(y, x);
-            const cv::Vec3f color(wound::linear_from_srgb8({pixel[0], pixel[1], pixel[2]}));
+            const cv::Vec3f color(base::linear_from_srgb8({pixel[0], pixel[1], pixel[2]}));
             const float alpha = pixel[3] / 255.0f;
             result(y, x) = alpha * color + (1 - alpha) * background(y);
         }
@@ -116,11 +116,11 @@ glm::dvec4 times(const json& rows, const glm::dvec4& v)
 
 TEST(Tiles, CoverThePictureWithEqualTilesAtEvenPixels)
 {
-    EXPECT_EQ(passes::tiles(passes::Canvas({640, 480}), 640).size(), 1u);
-    const std::vector<passes::Canvas> tiles = passes::tiles(passes::Canvas({1001, 640}), 256);
+    EXPECT_EQ(passes::tiles(passes::ViewportTile({640, 480}), 640).size(), 1u);
+    const std::vector<passes::ViewportTile> tiles = passes::tiles(passes::ViewportTile({1001, 640}), 256);
     ASSERT_EQ(tiles.size(), 4u * 3u);
     cv::Mat1b covered = cv::Mat1b::zeros(640, 1001);
-    for (const passes::Canvas& tile : tiles) {
+    for (const passes::ViewportTile& tile : tiles) {
         EXPECT_EQ(tile.size, tiles[0].size);
         EXPECT_LE(std::max(tile.size[0], tile.size[1]), 256u);
         EXPECT_EQ(tile.corner[0] % 2 + tile.corner[1] % 2, 0u);
@@ -136,13 +136,13 @@ TEST_F(Capture, TilesJoinWithoutASeam)
 {
     for (const std::uint32_t samples : {1u, 4u})
         for (const bool transparent : {false, true}) {
-            app::Scene scene = small::scene(small::head());
+            scene::Scene scene = small::scene(small::head());
             scene.samples = samples;
-            const app::Stage on = stage(scene);
-            const app::DrawOptions whole{{301, 203}, transparent, true, true, 2048},
+            const stage::Stage on = stage(scene);
+            const stage::DrawOptions whole{{301, 203}, transparent, true, true, 2048},
                 cut{{301, 203}, transparent, true, true, 64};
-            ASSERT_EQ(app::canvases(cut).size(), 5u * 4u);
-            const app::Drawing a = draw(on, on.camera(), whole), b = draw(on, on.camera(), cut);
+            ASSERT_EQ(stage::canvases(cut).size(), 5u * 4u);
+            const stage::Drawing a = draw(on, on.camera(), whole), b = draw(on, on.camera(), cut);
             const cv::Mat1b differs = difference(a.picture, b.picture);
             EXPECT_LE(cv::countNonZero(differs > 1), 3) << samples << transparent;
             EXPECT_EQ(a.bed_texels, b.bed_texels);
@@ -154,12 +154,12 @@ TEST_F(Capture, TilesJoinWithoutASeam)
 
 TEST_F(Capture, CameraMatricesAgreeWithEachOtherAndWithThePicture)
 {
-    app::Scene scene = small::scene(small::head());
+    scene::Scene scene = small::scene(small::head());
     scene.wounds.clear();
-    const app::Stage on = stage(scene);
-    const passes::Camera camera = on.camera({{25, 10}, 0, 24});
+    const stage::Stage on = stage(scene);
+    const head::Camera camera = on.camera({{25, 10}, 0, 24});
     const std::array<std::uint32_t, 2> size{320, 200};
-    const json record = app::camera_record(on, camera, size);
+    const json record = stage::camera_record(on, camera, size);
     const auto& k = record["intrinsics"];
     for (const glm::dvec4 point : {glm::dvec4(0.02, 0.03, 0.08, 1), glm::dvec4(-0.05, -0.06, 0.01, 1)}) {
         const glm::dvec4 clip = times(record["clip_from_world"], point);
@@ -173,7 +173,7 @@ TEST_F(Capture, CameraMatricesAgreeWithEachOtherAndWithThePicture)
                     glm::distance(glm::dvec3(point), camera.eye), 1e-9);
     }
     // The head's outline in the picture is that of its projected vertices.
-    const engine::Model model = small::head();
+    const head::Model model = small::head();
     cv::Mat1b projected = cv::Mat1b::zeros(int(size[1]), int(size[0]));
     for (std::size_t i = 0; i < model.indices.size(); i += 3) {
         std::array<cv::Point, 3> corners;
@@ -194,29 +194,29 @@ TEST_F(Capture, CameraMatricesAgreeWithEachOtherAndWithThePicture)
 
 TEST_F(Capture, ViewsAreStandardOnesOrTheScenes)
 {
-    app::Scene scene = small::scene(small::head());
-    scene.views = {{"steep", app::CameraScene{{10, 60}, 0, 20}}, {"close-up", std::nullopt}};
-    const app::Stage on = stage(scene);
-    const std::vector<app::View> all = app::chosen_views(on, {});
+    scene::Scene scene = small::scene(small::head());
+    scene.views = {{"steep", scene::Camera{{10, 60}, 0, 20}}, {"close-up", std::nullopt}};
+    const stage::Stage on = stage(scene);
+    const std::vector<scene::NamedCamera> all = stage::chosen_views(on, {});
     ASSERT_EQ(all.size(), 2u);
     EXPECT_EQ(all[0].name, "steep");
     EXPECT_EQ(all[0].camera.eye, on.camera({{10, 60}, 0, 20}).eye);
     EXPECT_EQ(all[1].camera.eye, on.close_up(0).eye);
-    const std::vector<app::View> chosen = app::chosen_views(on, {"left", "steep", "camera"});
+    const std::vector<scene::NamedCamera> chosen = stage::chosen_views(on, {"left", "steep", "camera"});
     EXPECT_LT(chosen[0].camera.eye.x, -0.5);
     EXPECT_EQ(chosen[2].camera.eye, on.camera().eye);
     for (const char* wrong : {"lefft", "close-up-2", "close-up-"})
         try {
-            app::chosen_views(on, {wrong});
+            stage::chosen_views(on, {wrong});
             ADD_FAILURE() << wrong;
-        } catch (const cicatrix::InputError& error) {
+        } catch (const base::InputError& error) {
             EXPECT_THAT(error.what(),
                         testing::AllOf(HasSubstr(wrong), HasSubstr("three-quarter"), HasSubstr("steep")));
         }
-    EXPECT_THROW(app::chosen_views(on, {"left", "left"}), cicatrix::InputError);
+    EXPECT_THROW(stage::chosen_views(on, {"left", "left"}), base::InputError);
 
     std::vector<std::string> names;
-    for (const app::Shot& shot : app::shots_of_days({0, 2.5, 0}, all))
+    for (const scene::Shot& shot : stage::shots_of_days({0, 2.5, 0}, all))
         names.push_back(shot.name);
     EXPECT_THAT(names, testing::ElementsAre("day_000_steep", "day_000_close-up", "day_002.500_steep",
                                             "day_002.500_close-up", "day_000_2_steep", "day_000_2_close-up"));
@@ -227,10 +227,10 @@ TEST_F(Capture, ViewsAreStandardOnesOrTheScenes)
 TEST_F(Capture, TransparentPicturesCompositeToTheOpaqueOne)
 {
     for (const std::uint32_t samples : {1u, 4u}) {
-        app::Scene scene = small::scene(small::head());
+        scene::Scene scene = small::scene(small::head());
         scene.samples = samples;
-        const app::Stage on = stage(scene);
-        const app::Drawing opaque = draw(on, on.camera(), {{256, 200}, false});
+        const stage::Stage on = stage(scene);
+        const stage::Drawing opaque = draw(on, on.camera(), {{256, 200}, false});
         const cv::Mat4b rgba = draw(on, on.camera(), {{256, 200}, true}).picture;
         std::array<int, 3> pixels{}; // clear, part, full
         for (const cv::Vec4b& pixel : rgba)
@@ -239,7 +239,7 @@ TEST_F(Capture, TransparentPicturesCompositeToTheOpaqueOne)
         EXPECT_GT(pixels[2], 5000);
         EXPECT_EQ(pixels[1] > 100, samples == 4) << "edges are antialiased with more samples only";
 
-        const passes::Backdrop studio = passes::backdrop_of(passes::Canvas({256, 200}));
+        const passes::Backdrop studio = passes::backdrop_of(passes::ViewportTile({256, 200}));
         const auto behind = [&](int y) {
             const glm::vec3 c = glm::mix(studio.top, studio.bottom, (float(y) + 0.5f) / 200);
             return cv::Vec3f(c.x, c.y, c.z);
@@ -253,11 +253,11 @@ TEST_F(Capture, TransparentPicturesCompositeToTheOpaqueOne)
 
 TEST_F(Capture, LinearLightIsWhatThePictureEncodes)
 {
-    app::Scene scene = small::scene(small::head());
+    scene::Scene scene = small::scene(small::head());
     scene.samples = 4;
     scene.exposure_stops = -1;
-    const app::Stage on = stage(scene);
-    const app::Drawing opaque = draw(on, on.camera(), {{256, 200}, false, true});
+    const stage::Stage on = stage(scene);
+    const stage::Drawing opaque = draw(on, on.camera(), {{256, 200}, false, true});
     ASSERT_EQ(opaque.radiance.type(), CV_32FC3);
     const cv::Mat3f exposed = opaque.radiance * std::exp2(scene.exposure_stops);
     double brightest = 0;
@@ -266,7 +266,7 @@ TEST_F(Capture, LinearLightIsWhatThePictureEncodes)
     const cv::Mat1b differs = difference(to_srgb8(exposed), opaque.picture);
     EXPECT_EQ(cv::countNonZero(differs > 1), 0);
 
-    const app::Drawing clear = draw(on, on.camera(), {{256, 200}, true, true});
+    const stage::Drawing clear = draw(on, on.camera(), {{256, 200}, true, true});
     ASSERT_EQ(clear.radiance.type(), CV_32FC4);
     for (int y = 0; y < 200; y += 3)
         for (int x = 0; x < 256; ++x) {
@@ -276,16 +276,16 @@ TEST_F(Capture, LinearLightIsWhatThePictureEncodes)
             if (light[3] > 0) { // premultiplied: divided by alpha it is the picture's straight colour
                 const cv::Vec3d straight(light[0] / light[3], light[1] / light[3], light[2] / light[3]);
                 for (int c = 0; c < 3; ++c)
-                    EXPECT_NEAR(wound::srgb8_from_linear(straight * 0.5)[c], code[c], 1);
+                    EXPECT_NEAR(base::srgb8_from_linear(straight * 0.5)[c], code[c], 1);
             }
         }
 }
 
 TEST_F(Capture, SweepsMoveDayAndCameraEvenly)
 {
-    const app::Stage on = stage(small::scene(small::head(), 64));
-    const app::View view{"", on.camera()};
-    const std::vector<app::Shot> round = app::shots_of_sweep(on, view, {0, 9, 360, 10, "orbit"});
+    const stage::Stage on = stage(small::scene(small::head(), 64));
+    const scene::NamedCamera view{"", on.camera()};
+    const std::vector<scene::Shot> round = stage::shots_of_sweep(on, view, {0, 9, 360, 10, "orbit"});
     ASSERT_EQ(round.size(), 10u);
     EXPECT_EQ(round[0].name, "orbit_000");
     EXPECT_EQ(round[0].camera.eye, on.camera().eye) << "begins as the picture";
@@ -301,8 +301,8 @@ TEST_F(Capture, SweepsMoveDayAndCameraEvenly)
         const double gone = from_axis(round[i].camera.eye).x - start.x - glm::radians(36.0 * double(i));
         EXPECT_NEAR(std::remainder(gone, 2 * 3.14159265358979), 0, 1e-9);
     }
-    EXPECT_EQ(app::shots_of_sweep(on, view, {5, 5, 90, 4, "orbit"}).back().turn_deg, 90);
-    EXPECT_EQ(app::shots_of_sweep(on, view, {5, 5, 90, 1, "orbit"})[0].turn_deg, 0);
+    EXPECT_EQ(stage::shots_of_sweep(on, view, {5, 5, 90, 4, "orbit"}).back().turn_deg, 90);
+    EXPECT_EQ(stage::shots_of_sweep(on, view, {5, 5, 90, 1, "orbit"})[0].turn_deg, 0);
 }
 
 // H.264 stores colour at half resolution and loses a little; a frame must still be its own picture and no
@@ -310,19 +310,19 @@ TEST_F(Capture, SweepsMoveDayAndCameraEvenly)
 TEST_F(Capture, FilmAndPicturesAgreeFrameByFrame)
 {
     const TemporaryFolder folder;
-    app::Scene scene = small::scene(small::head());
+    scene::Scene scene = small::scene(small::head());
     scene.size = {161, 121}; // odd: the film repeats the last row and column
     scene.days = {0, 6, 12, 18, 24};
-    app::CaptureOptions options;
+    stage::CaptureOptions options;
     options.out = folder / "out";
     options.cost = options.sheet = false;
     options.views = {"close-up"};
     options.video = folder / "film.mp4";
     options.fps = 5;
     options.duration_s = 1;
-    app::Progress progress;
+    base::Progress progress;
     std::vector<std::string> lines;
-    const json record = app::capture(renderer(), stage(scene), options, progress, lines);
+    const json record = stage::capture(renderer(), stage(scene), options, progress, lines);
     ASSERT_EQ(record["films"].size(), 1u);
     EXPECT_EQ(record["films"][0]["frames"].size(), 5u);
     EXPECT_EQ(record["films"][0]["frames"][1]["day"], 6);
@@ -331,7 +331,7 @@ TEST_F(Capture, FilmAndPicturesAgreeFrameByFrame)
     ASSERT_EQ(frames.size(), 5u);
     std::vector<cv::Mat3b> pictures;
     for (const json& day : record["days"])
-        pictures.push_back(engine::read_rgb(options.out / day["file"].get<std::string>()));
+        pictures.push_back(base::read_rgb(options.out / day["file"].get<std::string>()));
     for (std::size_t i = 0; i < 5; ++i) {
         const cv::Mat3b frame = frames[i](cv::Rect(0, 0, 161, 121));
         const double own = cv::PSNR(frame, pictures[i]);
@@ -347,16 +347,16 @@ TEST_F(Capture, FilmAndPicturesAgreeFrameByFrame)
 TEST_F(Capture, WritesTurntablesWithAlphaAndLinearLight)
 {
     const TemporaryFolder folder;
-    app::Scene scene = small::scene(small::head(), 64);
+    scene::Scene scene = small::scene(small::head(), 64);
     scene.days = {4};
-    app::CaptureOptions options;
+    stage::CaptureOptions options;
     options.out = folder / "out";
     options.cost = false;
     options.orbit = 3;
     options.transparent = options.exr = true;
-    app::Progress progress;
+    base::Progress progress;
     std::vector<std::string> lines;
-    const json record = app::capture(renderer(), stage(scene), options, progress, lines);
+    const json record = stage::capture(renderer(), stage(scene), options, progress, lines);
     ASSERT_EQ(record["days"].size(), 3u);
     EXPECT_EQ(record["days"][2]["turn_deg"], 240);
     EXPECT_EQ(record["days"][2]["day"], 4);
@@ -374,8 +374,8 @@ TEST_F(Capture, WritesTurntablesWithAlphaAndLinearLight)
 
 TEST(ProgressText, CountsAndTellsTheTimeLeft)
 {
-    EXPECT_EQ(app::progress_text("day 3", 0, 1, 9), "day 3");
-    EXPECT_EQ(app::progress_text("day 3", 0, 40, 9), "day 3   1 of 40   0 %");
-    EXPECT_EQ(app::progress_text("day 3", 10, 40, 30), "day 3   11 of 40   25 %   1:30 left");
-    EXPECT_EQ(app::progress_text("day 3", 1, 101, 50), "day 3   2 of 101   0 %   1:23:20 left");
+    EXPECT_EQ(base::progress_text("day 3", 0, 1, 9), "day 3");
+    EXPECT_EQ(base::progress_text("day 3", 0, 40, 9), "day 3   1 of 40   0 %");
+    EXPECT_EQ(base::progress_text("day 3", 10, 40, 30), "day 3   11 of 40   25 %   1:30 left");
+    EXPECT_EQ(base::progress_text("day 3", 1, 101, 50), "day 3   2 of 101   0 %   1:23:20 left");
 }

@@ -1,9 +1,9 @@
-#include "wound/color.hpp"
+#include "base/color.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-using wound::Lab;
+using base::Lab;
 
 namespace {
 
@@ -56,49 +56,49 @@ const SharmaPair sharma_table[] = {
 TEST(Color, DeltaE2000MatchesSharmasTable)
 {
     for (const auto& pair : sharma_table) {
-        EXPECT_NEAR(wound::delta_e2000(pair.x, pair.y), pair.delta_e, 5e-5) << pair.x.a << ' ' << pair.x.b;
-        EXPECT_NEAR(wound::delta_e2000(pair.y, pair.x), pair.delta_e, 5e-5) << pair.x.a << ' ' << pair.x.b;
+        EXPECT_NEAR(base::delta_e2000(pair.x, pair.y), pair.delta_e, 5e-5) << pair.x.a << ' ' << pair.x.b;
+        EXPECT_NEAR(base::delta_e2000(pair.y, pair.x), pair.delta_e, 5e-5) << pair.x.a << ' ' << pair.x.b;
     }
 }
 
 TEST(Color, SrgbIsContinuousAndItsOwnInverse)
 {
-    EXPECT_EQ(wound::srgb_from_linear(0), 0);
-    EXPECT_NEAR(wound::srgb_from_linear(1), 1, 1e-15);
-    EXPECT_NEAR(wound::srgb_from_linear(0.0031308), wound::srgb_from_linear(0.0031308 + 1e-12), 1e-7);
-    EXPECT_NEAR(wound::srgb_from_linear(0.18), 0.46135612950044, 1e-12); // mid grey
+    EXPECT_EQ(base::srgb_from_linear(0), 0);
+    EXPECT_NEAR(base::srgb_from_linear(1), 1, 1e-15);
+    EXPECT_NEAR(base::srgb_from_linear(0.0031308), base::srgb_from_linear(0.0031308 + 1e-12), 1e-7);
+    EXPECT_NEAR(base::srgb_from_linear(0.18), 0.46135612950044, 1e-12); // mid grey
     for (double x = 0; x <= 1; x += 1.0 / 1024)
-        EXPECT_NEAR(wound::linear_from_srgb(wound::srgb_from_linear(x)), x, 1e-7) << x;
+        EXPECT_NEAR(base::linear_from_srgb(base::srgb_from_linear(x)), x, 1e-7) << x;
     for (int code = 0; code < 256; ++code) {
         const cv::Vec3b rgb = cv::Vec3b::all(static_cast<uchar>(code));
-        EXPECT_EQ(wound::srgb8_from_linear(wound::linear_from_srgb8(rgb)), rgb);
+        EXPECT_EQ(base::srgb8_from_linear(base::linear_from_srgb8(rgb)), rgb);
     }
 }
 
 TEST(Color, EightBitEncodingClampsWhatIsOutside)
 {
-    EXPECT_EQ(wound::srgb8_from_linear({-1, 2, 1e300}), cv::Vec3b(0, 255, 255));
-    EXPECT_EQ(wound::srgb8_from_linear({NAN, INFINITY, -INFINITY}), cv::Vec3b(0, 255, 0));
+    EXPECT_EQ(base::srgb8_from_linear({-1, 2, 1e300}), cv::Vec3b(0, 255, 255));
+    EXPECT_EQ(base::srgb8_from_linear({NAN, INFINITY, -INFINITY}), cv::Vec3b(0, 255, 0));
 }
 
 // CIELAB of the sRGB primaries under D65 as commonly tabulated (Lindbloom).
 TEST(Color, LabOfKnownColors)
 {
-    const Lab white = wound::lab_from_linear(wound::Color(1, 1, 1));
+    const Lab white = base::lab_from_linear(base::Color(1, 1, 1));
     EXPECT_NEAR(white.l, 100, 1e-9);
     EXPECT_NEAR(white.a, 0, 1e-9);
     EXPECT_NEAR(white.b, 0, 1e-9);
-    const Lab red = wound::lab_from_linear(wound::Color(1, 0, 0));
+    const Lab red = base::lab_from_linear(base::Color(1, 0, 0));
     EXPECT_NEAR(red.l, 53.24, 0.01);
     EXPECT_NEAR(red.a, 80.09, 0.01);
     EXPECT_NEAR(red.b, 67.20, 0.01);
-    const Lab black = wound::lab_from_linear(wound::Color(0, 0, 0));
+    const Lab black = base::lab_from_linear(base::Color(0, 0, 0));
     EXPECT_NEAR(black.l, 0, 1e-12);
 }
 
 TEST(Color, LabAndBackIsTheSameColor)
 {
-    for (const wound::Color& color :
-         {wound::Color(0, 0, 0), wound::Color(0.6, 0.3, 0.2), wound::Color(0.001, 0, 0.002)})
-        EXPECT_LT(cv::norm(wound::linear_from_lab(wound::lab_from_linear(color)) - color), 1e-12);
+    for (const base::Color& color :
+         {base::Color(0, 0, 0), base::Color(0.6, 0.3, 0.2), base::Color(0.001, 0, 0.002)})
+        EXPECT_LT(cv::norm(base::linear_from_lab(base::lab_from_linear(color)) - color), 1e-12);
 }

@@ -1,14 +1,14 @@
 // Two pictures' colour difference, and `cicatrix compare`.
-#include "apps/compare.hpp"
+#include "apps/compare/compare.hpp"
 
 #include <fstream>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "base/color.hpp"
 #include "tests/process.hpp"
 #include "tests/small_head.hpp"
 #include "tests/temporary_folder.hpp"
-#include "wound/color.hpp"
 
 namespace {
 
@@ -19,9 +19,9 @@ const cv::Vec4b skin(210, 160, 140, 255), redder(210, 140, 130, 255), nothing(0,
 double difference_of(const cv::Vec4b& a, const cv::Vec4b& b)
 {
     const auto lab = [](const cv::Vec4b& c) {
-        return wound::lab_from_linear(wound::linear_from_srgb8({c[0], c[1], c[2]}));
+        return base::lab_from_linear(base::linear_from_srgb8({c[0], c[1], c[2]}));
     };
-    return wound::delta_e2000(lab(a), lab(b));
+    return base::delta_e2000(lab(a), lab(b));
 }
 
 } // namespace
@@ -29,10 +29,10 @@ double difference_of(const cv::Vec4b& a, const cv::Vec4b& b)
 TEST(ColorDifference, IsTakenOnTheHeadOnly)
 {
     cv::Mat4b a(10, 10, skin), b = a.clone();
-    EXPECT_EQ(app::color_difference(a, b).max, 0);
+    EXPECT_EQ(compare_command::color_difference(a, b).max, 0);
     b(cv::Rect(0, 0, 10, 1)).setTo(redder); // a tenth of the picture
     a(cv::Rect(0, 5, 10, 5)).setTo(nothing);
-    const app::ColorDifference difference = app::color_difference(a, b);
+    const compare_command::ColorDifference difference = compare_command::color_difference(a, b);
     const double step = difference_of(skin, redder);
     EXPECT_GT(step, 3);
     EXPECT_EQ(difference.pixels, 50);
@@ -47,7 +47,7 @@ TEST(ColorDifference, IsTakenOnTheHeadOnly)
 TEST(ColorDifference, OfPicturesWithoutAHeadIsZero)
 {
     const cv::Mat4b empty(4, 4, nothing);
-    const app::ColorDifference difference = app::color_difference(empty, empty);
+    const compare_command::ColorDifference difference = compare_command::color_difference(empty, empty);
     EXPECT_EQ(difference.pixels, 0);
     EXPECT_EQ(difference.mean + difference.max + difference.percentile_95, 0);
 }

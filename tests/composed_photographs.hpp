@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "wound/synthetic.hpp"
+#include "wound/synthetic/synthetic.hpp"
 
 namespace testing_wounds {
 

@@ -1,13 +1,11 @@
 // What the demo's gestures do to a scene, without a window.
-#include "apps/demo_edit.hpp"
+#include "apps/demo/edit.hpp"
 
 #include <gtest/gtest.h>
 
-#include "apps/stage.hpp"
+#include "stage/stage.hpp"
 
 namespace {
-
-using namespace app;
 
 /// A camera a metre in front of a wound of 30 mm in the origin, which faces it.
 struct Facing
@@ -17,14 +15,15 @@ struct Facing
         passes::Head head;
         head.min = glm::vec3(-.1f);
         head.max = glm::vec3(.1f);
-        sight = Sight(passes::make_view({{0, 0, 1}, {0, 0, 0}, 20}, head, passes::Canvas({200, 100})));
+        sight = demo_command::Sight(
+            passes::make_view({{0, 0, 1}, {0, 0, 0}, 20}, head, passes::ViewportTile({200, 100})));
         anchor.half_width_m = .015 / .45; // of the patch, of which the wound takes .45
     }
-    Sight sight;
-    passes::Anchor anchor;
+    demo_command::Sight sight;
+    head::Anchor anchor;
 };
 
-TEST(Sight, ProjectsAndComesBack)
+TEST(demo_command::Sight, ProjectsAndComesBack)
 {
     const Facing on;
     EXPECT_NEAR(glm::distance(on.sight.project({0, 0, 0}).value(), glm::dvec2(.5)), 0, 1e-6);
@@ -39,51 +38,56 @@ TEST(Sight, ProjectsAndComesBack)
     EXPECT_FALSE(on.sight.on_plane({.5, .5}, {0, .1, 0}, {0, 1, 0})) << "along the plane";
 }
 
-TEST(WoundOutline, HasItsHandlesRightAndAbove)
+TEST(demo_command::WoundOutline, HasItsHandlesRightAndAbove)
 {
     Facing on;
-    const auto outline = outline_of(on.anchor, on.sight);
+    const auto outline = demo_command::outline_of(on.anchor, on.sight);
     ASSERT_TRUE(outline);
     EXPECT_TRUE(outline->facing);
-    EXPECT_TRUE(inside(*outline, {.5, .5}));
-    EXPECT_FALSE(inside(*outline, outline->roll_handle));
+    EXPECT_TRUE(demo_command::inside(*outline, {.5, .5}));
+    EXPECT_FALSE(demo_command::inside(*outline, outline->roll_handle));
     EXPECT_GT(outline->width_handle.x, outline->centre.x);
     EXPECT_LT(outline->roll_handle.y, outline->centre.y);
     on.anchor.normal = {0, 0, -1};
-    EXPECT_FALSE(inside(outline_of(on.anchor, on.sight).value(), {.5, .5})) << "seen from behind";
+    EXPECT_FALSE(demo_command::inside(demo_command::outline_of(on.anchor, on.sight).value(), {.5, .5}))
+        << "seen from behind";
 }
 
 TEST(WoundHandles, SetWidthAndRoll)
 {
     const Facing on;
-    const auto outline = outline_of(on.anchor, on.sight);
+    const auto outline = demo_command::outline_of(on.anchor, on.sight);
     ASSERT_TRUE(outline);
-    EXPECT_NEAR(dragged_width_mm(on.anchor, on.sight, outline->width_handle, 1), 30, 1e-3) << "where it is";
-    EXPECT_NEAR(dragged_width_mm(on.anchor, on.sight, *on.sight.project({0, .03, 0}), 1), 60, 1e-3);
-    EXPECT_NEAR(dragged_roll_deg(on.anchor, on.sight, outline->roll_handle, 10), 10, 1e-3) << "where it is";
-    EXPECT_NEAR(dragged_roll_deg(on.anchor, on.sight, *on.sight.project({-.03, 0, 0}), 10), 100, 1e-3)
+    EXPECT_NEAR(demo_command::dragged_width_mm(on.anchor, on.sight, outline->width_handle, 1), 30, 1e-3)
+        << "where it is";
+    EXPECT_NEAR(demo_command::dragged_width_mm(on.anchor, on.sight, *on.sight.project({0, .03, 0}), 1), 60,
+                1e-3);
+    EXPECT_NEAR(demo_command::dragged_roll_deg(on.anchor, on.sight, outline->roll_handle, 10), 10, 1e-3)
+        << "where it is";
+    EXPECT_NEAR(demo_command::dragged_roll_deg(on.anchor, on.sight, *on.sight.project({-.03, 0, 0}), 10), 100,
+                1e-3)
         << "counter-clockwise";
 }
 
 TEST(PublishedMode, ComesAndGoes)
 {
-    const Scene mended;
-    Scene scene = mended;
-    EXPECT_FALSE(is_published(scene));
-    set_published(scene, true, mended);
-    EXPECT_TRUE(is_published(scene));
-    set_published(scene, false, mended);
+    const scene::Scene mended;
+    scene::Scene scene = mended;
+    EXPECT_FALSE(demo_command::is_published(scene));
+    demo_command::set_published(scene, true, mended);
+    EXPECT_TRUE(demo_command::is_published(scene));
+    demo_command::set_published(scene, false, mended);
     EXPECT_EQ(scene, mended);
 }
 
 TEST(PublishedMode, KeepsWhatWasMovedMeanwhile)
 {
-    const Scene mended;
-    Scene scene = mended;
-    set_published(scene, true, mended);
+    const scene::Scene mended;
+    scene::Scene scene = mended;
+    demo_command::set_published(scene, true, mended);
     scene.lights.front().from.azimuth_deg = 50;
     scene.wounds.front().width_mm = 40;
-    set_published(scene, false, mended);
+    demo_command::set_published(scene, false, mended);
     EXPECT_EQ(scene.lights.front().from.azimuth_deg, 50);
     EXPECT_EQ(scene.lights.size(), mended.lights.size());
     EXPECT_EQ(scene.wounds.front().width_mm, 40);
@@ -91,11 +95,11 @@ TEST(PublishedMode, KeepsWhatWasMovedMeanwhile)
 
 TEST(NextWound, IsUnlikeThoseThereAre)
 {
-    Scene scene;
-    const WoundScene second = next_wound(scene);
+    scene::Scene scene;
+    const scene::Wound second = demo_command::next_wound(scene);
     EXPECT_NE(second.seed, scene.wounds.front().seed);
     scene.wounds.push_back(second);
-    EXPECT_NE(next_wound(scene).seed, second.seed);
+    EXPECT_NE(demo_command::next_wound(scene).seed, second.seed);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // What the demo's user is doing, without a window: time running, the size of pictures while something moves,
 // messages.
-#include "apps/demo_session.hpp"
+#include "apps/demo/session.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,14 +9,13 @@
 
 namespace {
 
-using namespace app;
 using testing::ElementsAre;
 using testing::Field;
 using testing::SizeIs;
 
-TEST(TimelineAxis, IsEvenWhileTheWoundIsOpenAndDenserForTheScar)
+TEST(demo_command::TimelineAxis, IsEvenWhileTheWoundIsOpenAndDenserForTheScar)
 {
-    const TimelineAxis axis(25, 10);
+    const demo_command::TimelineAxis axis(25, 10);
     EXPECT_EQ(axis.day_at(0), 0);
     EXPECT_GT(axis.last_day(), 25 + 360);
     EXPECT_NEAR(axis.day_at(1), axis.last_day(), 1e-9);
@@ -28,28 +27,29 @@ TEST(TimelineAxis, IsEvenWhileTheWoundIsOpenAndDenserForTheScar)
     EXPECT_EQ(axis.fraction_of(1e6), 1);
 }
 
-TEST(TimelineAxis, OfAWoundThatNeverClosesHasNoScar)
+TEST(demo_command::TimelineAxis, OfAWoundThatNeverClosesHasNoScar)
 {
-    const TimelineAxis axis(std::numeric_limits<double>::infinity(), 40);
+    const demo_command::TimelineAxis axis(std::numeric_limits<double>::infinity(), 40);
     EXPECT_EQ(axis.last_day(), 40);
     EXPECT_EQ(axis.day_at(.5), 20);
-    for (const TimelineAxis::Tick& tick : axis.ticks(10))
+    for (const demo_command::TimelineAxis::Tick& tick : axis.ticks(10))
         EXPECT_LE(tick.day, 40);
 }
 
-TEST(TimelineAxis, TicksFitAndName)
+TEST(demo_command::TimelineAxis, TicksFitAndName)
 {
-    const auto ticks = TimelineAxis(30).ticks(12);
+    const auto ticks = demo_command::TimelineAxis(30).ticks(12);
     EXPECT_LE(ticks.size(), 14u);
     EXPECT_EQ(ticks.front().label, "0");
     EXPECT_EQ(ticks.back().label, "+12 mo");
-    EXPECT_TRUE(std::ranges::is_sorted(ticks, {}, &TimelineAxis::Tick::day));
+    EXPECT_TRUE(std::ranges::is_sorted(ticks, {}, &demo_command::TimelineAxis::Tick::day));
 }
 
-TEST(Playback, RunsToTheLastDayAndStartsAnew)
+TEST(demo_command::Playback, RunsToTheLastDayAndStartsAnew)
 {
-    Playback playback{.axis = TimelineAxis(std::numeric_limits<double>::infinity(), 10),
-                      .days_per_second = 2};
+    demo_command::Playback playback{
+        .axis = demo_command::TimelineAxis(std::numeric_limits<double>::infinity(), 10),
+        .days_per_second = 2};
     playback.advance(1);
     EXPECT_EQ(playback.day, 0) << "paused";
     playback.toggle();
@@ -63,27 +63,28 @@ TEST(Playback, RunsToTheLastDayAndStartsAnew)
     EXPECT_TRUE(playback.playing);
 }
 
-TEST(Playback, StaysWithinItsDays)
+TEST(demo_command::Playback, StaysWithinItsDays)
 {
-    Playback playback{.axis = TimelineAxis(std::numeric_limits<double>::infinity(), 10)};
+    demo_command::Playback playback{
+        .axis = demo_command::TimelineAxis(std::numeric_limits<double>::infinity(), 10)};
     playback.seek(-3);
     EXPECT_EQ(playback.day, 0);
     playback.seek(11);
     EXPECT_EQ(playback.day, 10);
 }
 
-TEST(Quality, RendersInFullWhatTakesLittleTime)
+TEST(demo_command::Quality, RendersInFullWhatTakesLittleTime)
 {
-    Quality quality;
+    demo_command::Quality quality;
     quality.rendered(1, 8);
     quality.moving(100);
     EXPECT_EQ(quality.scale(100), 1);
     EXPECT_EQ(quality.due_in(101), std::nullopt);
 }
 
-TEST(Quality, RendersSmallerWhileMovingAndInFullAfterwards)
+TEST(demo_command::Quality, RendersSmallerWhileMovingAndInFullAfterwards)
 {
-    Quality quality;
+    demo_command::Quality quality;
     quality.rendered(1, 200);
     EXPECT_EQ(quality.scale(99), 1) << "nothing moves yet";
     quality.moving(100);
@@ -97,9 +98,9 @@ TEST(Quality, RendersSmallerWhileMovingAndInFullAfterwards)
     EXPECT_EQ(quality.due_in(101), std::nullopt) << "the full picture is there";
 }
 
-TEST(Quality, DoesNotGoBackAndForthBetweenSizes)
+TEST(demo_command::Quality, DoesNotGoBackAndForthBetweenSizes)
 {
-    Quality quality;
+    demo_command::Quality quality;
     quality.rendered(1, 60);
     quality.moving(0);
     const double scale = quality.scale(0);
@@ -107,15 +108,15 @@ TEST(Quality, DoesNotGoBackAndForthBetweenSizes)
     EXPECT_EQ(quality.scale(0), scale);
 }
 
-TEST(Notices, GoAfterAWhileButErrorsStay)
+TEST(demo_command::Notices, GoAfterAWhileButErrorsStay)
 {
-    Notices notices;
+    demo_command::Notices notices;
     EXPECT_EQ(notices.next_change(), std::nullopt);
     notices.say("saved", 100);
     notices.fail("no such file");
     EXPECT_GT(notices.next_change().value(), 100);
     notices.drop_old(1000);
-    EXPECT_THAT(notices.list(), ElementsAre(Field(&Notice::text, "no such file")));
+    EXPECT_THAT(notices.list(), ElementsAre(Field(&demo_command::Notice::text, "no such file")));
     EXPECT_EQ(notices.next_change(), std::nullopt);
     notices.dismiss(0);
     EXPECT_THAT(notices.list(), SizeIs(0));

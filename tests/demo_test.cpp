@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/scene.hpp"
-#include "engine/image_io.hpp"
+#include "base/image_io.hpp"
+#include "scene/scene.hpp"
 #include "tests/desktop.hpp"
 #include "tests/process.hpp"
 #include "tests/small_head.hpp"
@@ -91,7 +91,7 @@ class DemoWindowTest : public testing::Test
             {"capture", file, "--days", "0", "--size", size, "--no-cost", "--out", folder_ / "captured"});
         ASSERT_EQ(captured.code, 0) << captured.err;
         cv::Mat difference;
-        cv::absdiff(view, engine::read_rgb(folder_ / "captured" / "day_000.png"), difference);
+        cv::absdiff(view, base::read_rgb(folder_ / "captured" / "day_000.png"), difference);
         cv::Mat1b near;
         cv::inRange(difference, cv::Scalar(0, 0, 0), cv::Scalar(2, 2, 2), near);
         EXPECT_GT(cv::countNonZero(near), .995 * view.size().area());
@@ -269,12 +269,12 @@ TEST_F(DemoWindowTest, SavesWhatItShowsAndSurvivesBadFiles)
 
     const std::filesystem::path saved = folder_ / "saved.json", picture = folder_ / "saved.png";
     answer("ctrl+s", saved);
-    const app::Scene read = app::read_scene(saved);
+    const scene::Scene read = scene::read_scene(saved);
     EXPECT_EQ(read.head, head());
     EXPECT_THAT(read.wounds, SizeIs(1));
     answer("ctrl+p", picture);
-    EXPECT_EQ(engine::read_rgb(picture).size(), cv::Size(1280, 720));
-    EXPECT_GT(red_pixels(engine::read_rgb(picture)), 100);
+    EXPECT_EQ(base::read_rgb(picture).size(), cv::Size(1280, 720));
+    EXPECT_GT(red_pixels(base::read_rgb(picture)), 100);
     quit(demo);
 }
 
@@ -303,8 +303,8 @@ TEST_F(DemoWindowTest, FollowsAPointerFasterThanItsFrames)
 TEST_F(DemoWindowTest, TakesTheWoundInAnAreaOfAPhoto)
 {
     const std::filesystem::path photo = folder_ / "photo.png";
-    engine::write_png(photo,
-                      testing_wounds::photograph({240, 160}, {70, 80}, testing_wounds::ellipse(30, 22)).srgb);
+    base::write_png(photo,
+                    testing_wounds::photograph({240, 160}, {70, 80}, testing_wounds::ellipse(30, 22)).srgb);
     Demo demo(desktop_, {scene()});
     demo.idle();
     fill_in(demo, "ctrl+o", photo);
@@ -318,7 +318,7 @@ TEST_F(DemoWindowTest, TakesTheWoundInAnAreaOfAPhoto)
     fill_in(demo, "ctrl+s", folder_ / "scene_of_photo.json");
     key("Return");
     demo.idle([](const json& now) { return now["dialog"] == 0; }, "the scene saved");
-    const app::Scene read = app::read_scene(folder_ / "scene_of_photo.json");
+    const scene::Scene read = scene::read_scene(folder_ / "scene_of_photo.json");
     ASSERT_THAT(read.wounds, SizeIs(1));
     EXPECT_EQ(read.wounds[0].photo.filename(), "photo.png");
     ASSERT_TRUE(read.wounds[0].segmentation.rect);
@@ -382,7 +382,7 @@ TEST_F(DemoWindowTest, EndsWithOneLineWhenTheDisplayGoesAway)
     const std::size_t at = err.find(" is in ") + 7;
     const std::filesystem::path rescued = err.substr(at, err.find("; ", at) - at);
     ASSERT_TRUE(std::filesystem::exists(rescued)) << rescued;
-    EXPECT_THAT(app::read_scene(rescued).wounds, SizeIs(2));
+    EXPECT_THAT(scene::read_scene(rescued).wounds, SizeIs(2));
     std::filesystem::remove(rescued);
 }
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "wound/color.hpp"
+#include "base/color.hpp"
 
 namespace {
 
@@ -14,7 +14,7 @@ const cv::Vec3f kSkin{.52F, .33F, .25F}, kBlood{.28F, .04F, .03F}, kFat{.75F, .5
 
 cv::Vec3f lab(const cv::Vec3f& linear)
 {
-    return wound::lab_from_linear(cv::Mat3f(1, 1, linear))(0, 0);
+    return base::lab_from_linear(cv::Mat3f(1, 1, linear))(0, 0);
 }
 
 cv::Mat1f disk(double radius)
@@ -125,8 +125,8 @@ TEST(Color, SrgbGoesThereAndBack)
     for (int i = 0; i < 256; ++i)
         all(i / 16, i % 16) =
             cv::Vec3b(static_cast<uchar>(i), static_cast<uchar>(255 - i), static_cast<uchar>((i * 7) % 256));
-    EXPECT_EQ(cv::norm(wound::srgb_from_linear(wound::linear_from_srgb(all)), all, cv::NORM_INF), 0);
-    EXPECT_NEAR(wound::linear_from_srgb(cv::Mat3b(1, 1, cv::Vec3b(188, 0, 255)))(0, 0)[0], .5029,
+    EXPECT_EQ(cv::norm(base::srgb_from_linear(base::linear_from_srgb(all)), all, cv::NORM_INF), 0);
+    EXPECT_NEAR(base::linear_from_srgb(cv::Mat3b(1, 1, cv::Vec3b(188, 0, 255)))(0, 0)[0], .5029,
                 1e-4); // IEC 61966-2-1
     const cv::Vec3f white = lab({1, 1, 1});
     EXPECT_NEAR(white[0], 100, .01);

@@ -1,41 +1,41 @@
 // Which device is taken, what is said when none is, and that the harness hears the validation layer.
-#include "engine/device.hpp"
-#include "engine/memory.hpp"
+#include "base/input_error.hpp"
+#include "engine/gpu/device.hpp"
+#include "engine/gpu/memory.hpp"
 #include "tests/gpu.hpp"
-#include "wound/input_error.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest-spi.h>
 
 namespace {
 
-using namespace engine;
-using cicatrix::InputError;
+using base::InputError;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
 
-PhysicalDevice device_of(const char* name, VkPhysicalDeviceType type, std::vector<std::string> missing = {})
+gpu::PhysicalDevice device_of(const char* name, VkPhysicalDeviceType type,
+                              std::vector<std::string> missing = {})
 {
-    PhysicalDevice device;
+    gpu::PhysicalDevice device;
     device.info.name = name;
     device.info.missing = std::move(missing);
     device.properties.deviceType = type;
     return device;
 }
 
-const std::vector<PhysicalDevice> three{
+const std::vector<gpu::PhysicalDevice> three{
     device_of("llvmpipe (LLVM 15)", VK_PHYSICAL_DEVICE_TYPE_CPU),
     device_of("Intel Iris", VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU),
     device_of("GeForce", VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, {"dynamicRendering", "4 samples per pixel"}),
 };
 
-std::string refusal(const std::vector<PhysicalDevice>& devices, const char* wanted)
+std::string refusal(const std::vector<gpu::PhysicalDevice>& devices, const char* wanted)
 {
     try {
-        return "took " + choose_device(devices, wanted).info.name;
+        return "took " + gpu::choose_device(devices, wanted).info.name;
     } catch (const InputError& error) {
         return error.what();
     }
@@ -43,14 +43,14 @@ std::string refusal(const std::vector<PhysicalDevice>& devices, const char* want
 
 TEST(DeviceChoice, TakesTheBestFitDevice)
 {
-    EXPECT_EQ(&choose_device(three, ""), &three[1]);
+    EXPECT_EQ(&gpu::choose_device(three, ""), &three[1]);
 }
 
 TEST(DeviceChoice, TakesTheOneAskedForByIndexOrPartOfItsName)
 {
-    EXPECT_EQ(&choose_device(three, "0"), &three[0]);
-    EXPECT_EQ(&choose_device(three, "LLVM"), &three[0]);
-    EXPECT_EQ(&choose_device(three, "iris"), &three[1]);
+    EXPECT_EQ(&gpu::choose_device(three, "0"), &three[0]);
+    EXPECT_EQ(&gpu::choose_device(three, "LLVM"), &three[0]);
+    EXPECT_EQ(&gpu::choose_device(three, "iris"), &three[1]);
 }
 
 TEST(DeviceChoice, SaysWhichDevicesThereAreWhenTheOneAskedForIsMissing)
@@ -78,16 +78,16 @@ using DeviceTest = gpu::Test;
 
 TEST_F(DeviceTest, DescribesEveryDevice)
 {
-    EXPECT_THAT(describe_devices(), AllOf(HasSubstr(gpu::device().info().name), HasSubstr("driver"),
-                                          HasSubstr("timestamps"), HasSubstr("samples")));
+    EXPECT_THAT(gpu::describe_devices(), AllOf(HasSubstr(gpu::device().info().name), HasSubstr("driver"),
+                                               HasSubstr("timestamps"), HasSubstr("samples")));
     EXPECT_THAT(gpu::device().info().missing, IsEmpty());
     EXPECT_THAT(gpu::device().info().driver, Not(IsEmpty()));
 }
 
 TEST_F(DeviceTest, WhatAWindowWishesCountsAmongWhatADeviceLacks)
 {
-    const auto missing = [](const DeviceWishes& wishes) {
-        return enumerate_devices(gpu::device().instance(), wishes).front().info.missing;
+    const auto missing = [](const gpu::DeviceWishes& wishes) {
+        return gpu::enumerate_devices(gpu::device().instance(), wishes).front().info.missing;
     };
     EXPECT_THAT(missing({{VK_KHR_SWAPCHAIN_EXTENSION_NAME}, {}}), IsEmpty());
     EXPECT_THAT(missing({{"VK_NO_such_thing"}, {}}), testing::ElementsAre("VK_NO_such_thing"));
@@ -97,26 +97,27 @@ TEST_F(DeviceTest, WhatAWindowWishesCountsAmongWhatADeviceLacks)
 
 TEST_F(DeviceTest, AnUnknownDeviceIsTheUsersMistake)
 {
-    EXPECT_THROW(Device({.device = "no such device"}), InputError);
+    EXPECT_THROW(gpu::Device({.device = "no such device"}), InputError);
 }
 
 TEST_F(DeviceTest, AnImageBeyondTheDevicesLimitIsTheUsersMistake)
 {
-    EXPECT_THROW(
-        Image(gpu::device(), {1u << 20, 16, VK_FORMAT_R8G8B8A8_UNORM}, 1, VK_IMAGE_USAGE_SAMPLED_BIT, "huge"),
-        InputError);
+    EXPECT_THROW(gpu::Image(gpu::device(), {1u << 20, 16, VK_FORMAT_R8G8B8A8_UNORM}, 1,
+                            VK_IMAGE_USAGE_SAMPLED_BIT, "huge"),
+                 InputError);
 }
 
 TEST_F(DeviceTest, SeveralDevicesLiveSideBySide)
 {
-    const Device second;
+    const gpu::Device second;
     EXPECT_EQ(second.info().name, gpu::device().info().name);
 }
 
 /// Writes a buffer twice in a row with nothing between: only synchronisation validation can see it.
 void write_twice_without_a_barrier()
 {
-    const Buffer buffer(gpu::device(), 64, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostAccess::None, "twice");
+    const gpu::Buffer buffer(gpu::device(), 64, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::HostAccess::None,
+                             "twice");
     gpu::device().run_once([&](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, buffer.handle(), 0, 64, 1);
         vkCmdFillBuffer(commands, buffer.handle(), 0, 64, 2);

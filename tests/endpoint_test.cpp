@@ -4,15 +4,15 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/scene_options.hpp"
-#include "apps/stage.hpp"
+#include "scene/command_line.hpp"
+#include "stage/stage.hpp"
 #include "tests/gpu.hpp"
 #include "tests/small_head.hpp"
 
 namespace {
 
 /// Nothing but C of eq. (4), in white light from everywhere.
-passes::Shading bare_color(passes::Shading shading)
+optics::Shading bare_color(optics::Shading shading)
 {
     shading.lambert = shading.translucency = shading.ward = shading.normal_map = shading.shadow = false;
     shading.ambient = glm::vec3(1);
@@ -20,15 +20,17 @@ passes::Shading bare_color(passes::Shading shading)
 }
 
 /// The linear radiance of a day, as floats.
-cv::Mat3f radiance(const app::Stage& stage, double day, const passes::Camera& camera,
-                   const passes::Shading& shading)
+cv::Mat3f radiance(const stage::Stage& stage, double day, const head::Camera& camera,
+                   const optics::Shading& shading)
 {
-    engine::Graph graph;
-    graph.readback("picture",
-                   stage.declare(graph, stage.wounds_on(day), camera, shading, stage.scene().size).picture);
-    const auto found = std::ranges::find(graph.images, "radiance", &engine::Graph::Image::name);
-    const engine::ReadbackId back = graph.readback("radiance", {std::uint32_t(found - graph.images.begin())});
-    engine::Executor executor(gpu::device(), gpu::shaders());
+    graph::Graph graph;
+    graph.readback(
+        "picture",
+        stage.declare(graph, {.day = day, .tile = stage.scene().size, .camera = camera, .shading = shading})
+            .images.picture);
+    const auto found = std::ranges::find(graph.images, "radiance", &graph::Graph::Image::name);
+    const graph::ReadbackId back = graph.readback("radiance", {std::uint32_t(found - graph.images.begin())});
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     cv::Mat4f linear;
     executor.run(graph).mat(back).convertTo(linear, CV_32F);
     cv::Mat3f rgb;
@@ -36,14 +38,12 @@ cv::Mat3f radiance(const app::Stage& stage, double day, const passes::Camera& ca
     return rgb;
 }
 
-cv::Mat4b picture(const app::Stage& stage, double day)
+cv::Mat4b picture(const stage::Stage& stage, double day)
 {
-    engine::Graph graph;
-    const engine::ReadbackId back = graph.readback(
-        "picture",
-        stage.declare(graph, stage.wounds_on(day), stage.camera(), stage.scene().shading, stage.scene().size)
-            .picture);
-    engine::Executor executor(gpu::device(), gpu::shaders());
+    graph::Graph graph;
+    const graph::ReadbackId back = graph.readback(
+        "picture", stage.declare(graph, {.day = day, .tile = stage.scene().size}).images.picture);
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     return executor.run(graph).mat(back).clone();
 }
 
@@ -57,16 +57,16 @@ TEST_F(Endpoint, DayZeroShowsTheWoundsOwnPicture)
 {
     const glm::vec3 skin(0.55f, 0.36f, 0.27f);
     for (const bool published : {false, true}) {
-        app::Scene scene = small::scene(small::wall(skin), 512);
+        scene::Scene scene = small::scene(small::wall(skin), 512);
         scene.wounds[0].place = glm::dvec3(0);
         if (published)
-            app::make_published(scene);
-        const app::Stage::Props props = app::Stage::prepare(scene);
-        app::FittedWound& fitted = props.wounds()[0]->wounds[0];
+            scene::make_published(scene);
+        const stage::Stage::Preparation props = stage::Stage::prepare(scene);
+        scene::FittedWound& fitted = props.wounds()[0]->wounds[0];
         const wound::Patch patch = fitted.prepared.patch;
         fitted.prepared.patch.depth_mm.setTo(0); // a hollow would darken itself
         const double half_width = fitted.anchor.half_width_m;
-        const app::Stage stage(gpu::device(), scene, props);
+        const stage::Stage stage(gpu::device(), props);
         const double fov_deg =
             2 * 180 / CV_PI * std::atan(0.5 * half_width / 1.0); // the middle half of the patch, from 1 m
         const cv::Mat3f seen = radiance(stage, 0, {{0, 0, 1}, {0, 0, 0}, fov_deg}, bare_color(scene.shading));
@@ -99,12 +99,12 @@ TEST_F(Endpoint, DayZeroShowsTheWoundsOwnPicture)
 
 TEST_F(Endpoint, ClosureLeavesTheSkinThatWasThereBefore)
 {
-    app::Scene scene = small::scene(small::head());
+    scene::Scene scene = small::scene(small::head());
     scene.wounds[0].healing.model = wound::HealingModel::contraction;
-    app::Scene unhurt = scene;
+    scene::Scene unhurt = scene;
     unhurt.wounds.clear();
-    const app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
-    const app::Stage bare(gpu::device(), unhurt, app::Stage::prepare(unhurt));
+    const stage::Stage stage(gpu::device(), stage::Stage::prepare(scene));
+    const stage::Stage bare(gpu::device(), unhurt, stage::Stage::prepare(unhurt));
     const cv::Mat4b without = picture(bare, 365);
     EXPECT_LE(cv::norm(picture(stage, 365), without, cv::NORM_INF), 1);
     EXPECT_GT(cv::norm(picture(stage, 0), without, cv::NORM_INF), 40)
@@ -116,11 +116,13 @@ TEST_F(Endpoint, ClosureLeavesTheSkinThatWasThereBefore)
 TEST_F(Endpoint, NothingJumpsWhereTheWoundBecomesAScar)
 {
     for (const auto model : {wound::HealingModel::face, wound::HealingModel::contraction}) {
-        app::Scene scene = small::scene(small::head(), 128);
+        scene::Scene scene = small::scene(small::head(), 128);
         scene.wounds[0].healing.model = model;
-        const app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
+        const stage::Stage stage(gpu::device(), stage::Stage::prepare(scene));
         const double closed = wound::closure_day(scene.wounds[0].healing.curve);
-        const auto seen = [&](double day) { return radiance(stage, day, stage.close_up(0), scene.shading); };
+        const auto seen = [&](double day) {
+            return radiance(stage, day, stage.loaded().close_up(0), scene.shading);
+        };
         const std::string name = model == wound::HealingModel::face ? "face" : "contraction";
 
         std::vector<cv::Mat3f> steps; // half days
@@ -134,7 +136,7 @@ TEST_F(Endpoint, NothingJumpsWhereTheWoundBecomesAScar)
         cv::absdiff(steps[6], steps[4], before);
         cv::absdiff(steps[8], steps[6], after);
         const cv::Mat3f around = cv::max(before, after); // of a day, pixel by pixel
-        constexpr double half_float = 1e-3; // radiance is held in half floats
+        constexpr double half_float = 1e-3;              // radiance is held in half floats
         double least = 1;
         cv::minMaxLoc(cv::Mat3f(around - jump).reshape(1), &least);
         EXPECT_GE(least, -half_float) << name;

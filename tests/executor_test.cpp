@@ -1,7 +1,7 @@
 // Frames on a device: what comes out, what is skipped, how long it took. Every test runs under validation.
-#include "engine/executor.hpp"
+#include "base/input_error.hpp"
+#include "engine/gpu/executor.hpp"
 #include "tests/gpu.hpp"
-#include "wound/input_error.hpp"
 
 #include <cstring>
 #include <glm/glm.hpp>
@@ -9,7 +9,6 @@
 
 namespace {
 
-using namespace engine;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -19,13 +18,14 @@ struct FillParams
     float step = 0.0f;
 };
 
-constexpr ImageDesc small_float{20, 12, VK_FORMAT_R32G32B32A32_SFLOAT};
+constexpr graph::ImageDesc small_float{20, 12, VK_FORMAT_R32G32B32A32_SFLOAT};
 
 /// A compute pass that fills "filled".
-ImageId add_fill(Graph& graph, const FillParams& params, const std::vector<glm::vec2>& offsets = {})
+graph::ImageId add_fill(graph::Graph& graph, const FillParams& params,
+                        const std::vector<glm::vec2>& offsets = {})
 {
-    const ImageId filled = graph.image("filled", small_float);
-    ComputePass& fill = graph.compute("fill", "test_fill.comp");
+    const graph::ImageId filled = graph.image("filled", small_float);
+    graph::ComputePass& fill = graph.compute("fill", "test_fill.comp");
     fill.store("result", filled);
     fill.uniform("params", params);
     fill.buffer("Offsets", offsets);
@@ -34,23 +34,23 @@ ImageId add_fill(Graph& graph, const FillParams& params, const std::vector<glm::
 }
 
 /// A raster pass that shows `source` in "shown".
-ImageId add_show(Graph& graph, ImageId source, glm::vec4 tint = glm::vec4(1.0f))
+graph::ImageId add_show(graph::Graph& graph, graph::ImageId source, glm::vec4 tint = glm::vec4(1.0f))
 {
-    const ImageId shown = graph.image("shown", small_float);
-    RasterPass& show = graph.raster("show");
+    const graph::ImageId shown = graph.image("shown", small_float);
+    graph::RasterPass& show = graph.raster("show");
     show.color(shown, {0, 0, 0, 0});
-    show.sample("source", source, Sampler::NearestClamp);
+    show.sample("source", source, graph::Sampler::NearestClamp);
     show.uniform("Tint", tint);
     show.draw("test_quad").index_count = 3;
     return shown;
 }
 
 /// "fill ran: first run", in order of execution.
-std::vector<std::string> states(const FrameResult& result)
+std::vector<std::string> states(const gpu::FrameResult& result)
 {
     std::vector<std::string> list;
-    for (const PassResult& pass : result.passes)
-        list.push_back(pass.name + " " + name_of(pass.state) + ": " + pass.reason);
+    for (const gpu::PassResult& pass : result.passes)
+        list.push_back(pass.name + " " + gpu::name_of(pass.state) + ": " + pass.reason);
     return list;
 }
 
@@ -58,10 +58,10 @@ using ExecutorTest = gpu::Test;
 
 TEST_F(ExecutorTest, ComputeReachesEveryTexelAndIsReadBackRowTight)
 {
-    Executor executor(gpu::device(), gpu::shaders());
-    Graph graph;
-    const ReadbackId back = graph.readback("filled", add_fill(graph, {.step = 1.0f}));
-    const FrameResult result = executor.run(graph);
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    graph::Graph graph;
+    const graph::ReadbackId back = graph.readback("filled", add_fill(graph, {.step = 1.0f}));
+    const gpu::FrameResult result = executor.run(graph);
     const cv::Mat picture = result.mat(back);
     ASSERT_EQ(picture.type(), CV_32FC4);
     ASSERT_EQ(picture.cols, 20);
@@ -73,23 +73,23 @@ TEST_F(ExecutorTest, ComputeReachesEveryTexelAndIsReadBackRowTight)
 
 TEST_F(ExecutorTest, RasterSamplesWhatComputeWrote)
 {
-    Executor executor(gpu::device(), gpu::shaders());
-    Graph graph;
-    const ImageId shown = add_show(graph, add_fill(graph, {.step = 1.0f}), glm::vec4(2.0f));
-    const ReadbackId back = graph.readback("shown", shown);
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    graph::Graph graph;
+    const graph::ImageId shown = add_show(graph, add_fill(graph, {.step = 1.0f}), glm::vec4(2.0f));
+    const graph::ReadbackId back = graph.readback("shown", shown);
     const cv::Mat picture = executor.run(graph).mat(back).clone();
     EXPECT_EQ(picture.at<cv::Vec4f>(11, 19), cv::Vec4f(38.5f, 23.0f, 1.5f, 2.0f));
 }
 
 TEST_F(ExecutorTest, AnUnchangedFrameRunsNothingAndStillReadsBackTheSame)
 {
-    Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     const auto frame = [&] {
-        Graph graph;
+        graph::Graph graph;
         graph.readback("shown", add_show(graph, add_fill(graph, {.step = 1.0f})));
         return executor.run(graph);
     };
-    const FrameResult first = frame(), second = frame();
+    const gpu::FrameResult first = frame(), second = frame();
     EXPECT_THAT(states(first), ElementsAre("fill ran: first run", "show ran: first run"));
     EXPECT_THAT(states(second), ElementsAre("fill skipped: unchanged", "show skipped: unchanged"));
     EXPECT_EQ(first.readbacks[0].bytes, second.readbacks[0].bytes);
@@ -97,8 +97,8 @@ TEST_F(ExecutorTest, AnUnchangedFrameRunsNothingAndStillReadsBackTheSame)
 
 TEST_F(ExecutorTest, WhatWasForgottenRunsAgain)
 {
-    Executor executor(gpu::device(), gpu::shaders());
-    Graph graph;
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    graph::Graph graph;
     graph.readback("filled", add_fill(graph, {}));
     executor.run(graph);
     executor.forget();
@@ -107,9 +107,9 @@ TEST_F(ExecutorTest, WhatWasForgottenRunsAgain)
 
 TEST_F(ExecutorTest, KnowsBeforehandWhetherAFrameWouldRunAnything)
 {
-    Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     const auto frame = [](float step) {
-        Graph graph;
+        graph::Graph graph;
         graph.readback("filled", add_fill(graph, {.step = step}));
         return graph;
     };
@@ -117,19 +117,19 @@ TEST_F(ExecutorTest, KnowsBeforehandWhetherAFrameWouldRunAnything)
     executor.run(frame(1));
     EXPECT_TRUE(executor.up_to_date(frame(1)));
     EXPECT_FALSE(executor.up_to_date(frame(2)));
-    Graph always = frame(1);
-    std::get<ComputePass>(always.passes.front()).every_frame();
+    graph::Graph always = frame(1);
+    std::get<graph::ComputePass>(always.passes.front()).every_frame();
     EXPECT_FALSE(executor.up_to_date(always));
 }
 
 TEST_F(ExecutorTest, PrefixesTellTwoDeclarationsOfOneRecipeApart)
 {
-    Executor executor(gpu::device(), gpu::shaders());
-    Graph graph;
-    const ReadbackId plain = graph.readback("a", add_fill(graph, {.step = 1}));
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    graph::Graph graph;
+    const graph::ReadbackId plain = graph.readback("a", add_fill(graph, {.step = 1}));
     graph.prefix("other ");
-    const ReadbackId other = graph.readback("b", add_fill(graph, {.step = 2}));
-    const FrameResult result = executor.run(graph);
+    const graph::ReadbackId other = graph.readback("b", add_fill(graph, {.step = 2}));
+    const gpu::FrameResult result = executor.run(graph);
     EXPECT_THAT(states(result), ElementsAre("fill ran: first run", "other fill ran: first run"));
     EXPECT_EQ(result.mat(plain).at<cv::Vec4f>(0, 1)[0], 1.25f);
     EXPECT_EQ(result.mat(other).at<cv::Vec4f>(0, 1)[0], 2.25f);
@@ -137,12 +137,12 @@ TEST_F(ExecutorTest, PrefixesTellTwoDeclarationsOfOneRecipeApart)
 
 TEST_F(ExecutorTest, KeepsWhatAFrameReadsUntilItIsFinished)
 {
-    Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     auto used = std::make_shared<int>(0);
     const std::weak_ptr<int> alive = used;
-    engine::FrameToken token;
+    gpu::FrameToken token;
     {
-        Graph graph;
+        graph::Graph graph;
         graph.readback("filled", add_fill(graph, {}));
         graph.keep(std::move(used));
         token = executor.submit(graph);
@@ -154,30 +154,30 @@ TEST_F(ExecutorTest, KeepsWhatAFrameReadsUntilItIsFinished)
 
 TEST_F(ExecutorTest, AChangedUniformRerunsItsPassAndWhatFollows)
 {
-    Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     const auto frame = [&](float step, float tint) {
-        Graph graph;
+        graph::Graph graph;
         graph.readback("shown", add_show(graph, add_fill(graph, {.step = step}), glm::vec4(tint)));
         return executor.run(graph);
     };
     frame(1, 1);
     EXPECT_THAT(states(frame(1, 2)),
                 ElementsAre("fill skipped: unchanged", "show ran: changed: uniform Tint"));
-    const FrameResult result = frame(2, 2);
+    const gpu::FrameResult result = frame(2, 2);
     EXPECT_THAT(states(result),
                 ElementsAre("fill ran: changed: uniform params", "show ran: changed: input filled"));
-    EXPECT_EQ(result.mat(ReadbackId{0}).at<cv::Vec4f>(0, 19)[0], 2.0f * (0.25f + 2.0f * 19.0f));
+    EXPECT_EQ(result.mat(graph::ReadbackId{0}).at<cv::Vec4f>(0, 19)[0], 2.0f * (0.25f + 2.0f * 19.0f));
 }
 
 TEST_F(ExecutorTest, EveryFramePassesRunAlwaysAndCulledOnesNever)
 {
-    Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     for (int i = 0; i < 3; ++i) {
-        Graph graph;
-        const ImageId filled = add_fill(graph, {});
-        const ImageId shown = add_show(graph, filled);
-        std::get<RasterPass>(graph.passes.back()).every_frame();
-        ComputePass& unused = graph.compute("unused", "test_fill.comp");
+        graph::Graph graph;
+        const graph::ImageId filled = add_fill(graph, {});
+        const graph::ImageId shown = add_show(graph, filled);
+        std::get<graph::RasterPass>(graph.passes.back()).every_frame();
+        graph::ComputePass& unused = graph.compute("unused", "test_fill.comp");
         unused.store("result", graph.image("unused_image", small_float));
         unused.uniform("params", FillParams{});
         unused.buffer<glm::vec2>("Offsets", {});
@@ -192,12 +192,12 @@ TEST_F(ExecutorTest, EveryFramePassesRunAlwaysAndCulledOnesNever)
 
 TEST_F(ExecutorTest, ConstantsAndBuffersReachTheShader)
 {
-    Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     const auto first_texel = [&](float gain, const std::vector<glm::vec2>& offsets) {
-        Graph graph;
-        const ImageId filled = add_fill(graph, {.step = 1.0f}, offsets);
-        std::get<ComputePass>(graph.passes.back()).constant("gain", gain);
-        const ReadbackId back = graph.readback("filled", filled);
+        graph::Graph graph;
+        const graph::ImageId filled = add_fill(graph, {.step = 1.0f}, offsets);
+        std::get<graph::ComputePass>(graph.passes.back()).constant("gain", gain);
+        const graph::ReadbackId back = graph.readback("filled", filled);
         return executor.run(graph).mat(back).at<cv::Vec4f>(0, 0);
     };
     EXPECT_EQ(first_texel(1.0f, {}), cv::Vec4f(0.25f, 0.5f, 0.75f, 1.0f))
@@ -209,16 +209,16 @@ TEST_F(ExecutorTest, ConstantsAndBuffersReachTheShader)
 
 TEST_F(ExecutorTest, AResizedImageIsMadeAnew)
 {
-    Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     for (const std::uint32_t width : {33u, 7u, 64u}) {
-        Graph graph;
-        const ImageId image = graph.image("filled", {width, 5, VK_FORMAT_R32G32B32A32_SFLOAT});
-        ComputePass& fill = graph.compute("fill", "test_fill.comp");
+        graph::Graph graph;
+        const graph::ImageId image = graph.image("filled", {width, 5, VK_FORMAT_R32G32B32A32_SFLOAT});
+        graph::ComputePass& fill = graph.compute("fill", "test_fill.comp");
         fill.store("result", image);
         fill.uniform("params", FillParams{.step = 1.0f});
         fill.buffer<glm::vec2>("Offsets", {});
         fill.dispatch(width, 5);
-        const ReadbackId back = graph.readback("filled", image);
+        const graph::ReadbackId back = graph.readback("filled", image);
         const cv::Mat picture = executor.run(graph).mat(back).clone();
         ASSERT_EQ(picture.cols, static_cast<int>(width));
         EXPECT_EQ(picture.at<cv::Vec4f>(4, picture.cols - 1)[0], 0.25f + static_cast<float>(width - 1));
@@ -231,44 +231,44 @@ TEST_F(ExecutorTest, AResizedImageIsMadeAnew)
 TEST_F(ExecutorTest, TimesEveryPassThatRanAndAComputePassNotAsNothing)
 {
     ASSERT_TRUE(gpu::device().info().timestamps);
-    Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     const std::vector<glm::vec2> work(60000);
     const auto frame = [&](float color) {
-        Graph graph;
+        graph::Graph graph;
         graph.readback("shown", add_show(graph, add_fill(graph, {.color = glm::vec3(color)}, work)));
         return executor.run(graph);
     };
     frame(
         0); // once a render pass has run, llvmpipe's timestamps before a dispatch need a barrier behind them
-    const FrameResult result = frame(1);
+    const gpu::FrameResult result = frame(1);
     const double compute = result.pass("fill").gpu_ms.value(), raster = result.pass("show").gpu_ms.value();
     EXPECT_GT(compute, 0.1 * result.frame_ms) << "nearly all the frame's work";
     EXPECT_GE(raster, 0.0);
     EXPECT_GE(result.gpu_ms.value(), compute + raster);
     EXPECT_LE(result.gpu_ms.value(), result.frame_ms);
     EXPECT_GT(result.pass("fill").cpu_ms, 0.0);
-    const FrameResult still = frame(1);
+    const gpu::FrameResult still = frame(1);
     EXPECT_FALSE(still.pass("fill").gpu_ms) << "a skipped pass has no time";
 }
 
 TEST_F(ExecutorTest, LaysCpuAndGpuOnOneLine)
 {
     for (const bool align : {false, true}) {
-        Executor executor(gpu::device(), gpu::shaders());
+        gpu::Executor executor(gpu::device(), gpu::shaders());
         executor.measure({.align = align});
         const std::vector<glm::vec2> work(20000);
         for (int i = 0; i < 3; ++i) {
-            Graph graph;
+            graph::Graph graph;
             graph.readback("shown", add_show(graph, add_fill(graph, {.step = float(i)}, work)));
-            const FrameResult result = executor.run(graph);
-            EXPECT_EQ(result.alignment,
-                      align && gpu::device().info().calibrated ? Alignment::Calibrated : Alignment::Bounds);
-            const HostTimes& host = result.host;
+            const gpu::FrameResult result = executor.run(graph);
+            EXPECT_EQ(result.alignment, align && gpu::device().info().calibrated ? gpu::Alignment::Calibrated
+                                                                                 : gpu::Alignment::Bounds);
+            const gpu::HostTimes& host = result.host;
             const double recorded = host.schedule_ms + host.record_ms;
             EXPECT_NEAR(recorded + host.submit_ms + host.wait_ms + host.readback_ms, result.frame_ms, 1e-6);
             // What runs one after the other lies one after the other, from the submission to the fence.
             double gpu = recorded, cpu = host.schedule_ms;
-            for (const PassResult& pass : result.passes) {
+            for (const gpu::PassResult& pass : result.passes) {
                 EXPECT_GE(pass.cpu_begin_ms, cpu) << pass.name;
                 cpu = pass.cpu_begin_ms + pass.cpu_ms;
                 EXPECT_GE(pass.gpu_begin_ms.value(), gpu - result.alignment_error_ms - 1e-6) << pass.name;
@@ -284,22 +284,22 @@ TEST_F(ExecutorTest, LaysCpuAndGpuOnOneLine)
 
 TEST_F(ExecutorTest, CountsInvocationsAndBytesOfPassesThatRan)
 {
-    Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     const auto frame = [&] {
-        Graph graph;
+        graph::Graph graph;
         graph.readback("shown", add_show(graph, add_fill(graph, {})));
         return executor.run(graph);
     };
     EXPECT_FALSE(frame().pass("fill").invocations) << "nothing is counted unless asked for";
     executor.forget();
     executor.measure({.count = true});
-    const FrameResult counted = frame();
+    const gpu::FrameResult counted = frame();
     constexpr std::uint64_t texels = std::uint64_t{small_float.width} * small_float.height;
     for (const char* name : {"fill", "show"})
         EXPECT_EQ(counted.pass(name).bytes_written, 16 * texels) << name;
     if (gpu::device().info().statistics) {
-        const Invocations fill = counted.pass("fill").invocations.value(),
-                          show = counted.pass("show").invocations.value();
+        const gpu::Invocations fill = counted.pass("fill").invocations.value(),
+                               show = counted.pass("show").invocations.value();
         EXPECT_GE(fill.compute, texels); // whole workgroups
         EXPECT_LT(fill.compute, 4 * texels);
         EXPECT_EQ(fill.fragment + fill.vertex + show.compute, 0u);
@@ -308,7 +308,7 @@ TEST_F(ExecutorTest, CountsInvocationsAndBytesOfPassesThatRan)
     } else {
         EXPECT_FALSE(counted.pass("fill").invocations);
     }
-    const FrameResult still = frame();
+    const gpu::FrameResult still = frame();
     EXPECT_EQ(still.pass("fill").bytes_written, 0u);
     EXPECT_FALSE(still.pass("fill").invocations);
     EXPECT_FALSE(still.pass("fill").gpu_begin_ms);
@@ -316,16 +316,16 @@ TEST_F(ExecutorTest, CountsInvocationsAndBytesOfPassesThatRan)
 
 TEST_F(ExecutorTest, OnlyWhatIsStoredCountsAsWritten)
 {
-    Executor executor(gpu::device(), gpu::shaders());
-    Graph graph;
-    const ImageId filled = add_fill(graph, {});
-    const ImageId many = graph.image("many", {8, 8, VK_FORMAT_R8G8B8A8_UNORM, 4}),
-                  one = graph.image("one", {8, 8, VK_FORMAT_R8G8B8A8_UNORM}),
-                  depth = graph.image("depth", {8, 8, VK_FORMAT_D32_SFLOAT, 4});
-    RasterPass& show = graph.raster("show");
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    graph::Graph graph;
+    const graph::ImageId filled = add_fill(graph, {});
+    const graph::ImageId many = graph.image("many", {8, 8, VK_FORMAT_R8G8B8A8_UNORM, 4}),
+                         one = graph.image("one", {8, 8, VK_FORMAT_R8G8B8A8_UNORM}),
+                         depth = graph.image("depth", {8, 8, VK_FORMAT_D32_SFLOAT, 4});
+    graph::RasterPass& show = graph.raster("show");
     show.color(many, {0, 0, 0, 0}, one);
     show.depth(depth);
-    show.sample("source", filled, Sampler::NearestClamp);
+    show.sample("source", filled, graph::Sampler::NearestClamp);
     show.uniform("Tint", glm::vec4(1));
     show.draw("test_quad").index_count = 3;
     graph.readback("one", one);
@@ -335,16 +335,16 @@ TEST_F(ExecutorTest, OnlyWhatIsStoredCountsAsWritten)
 
 TEST_F(ExecutorTest, TwoFramesInFlightKeepTheirOwnResults)
 {
-    Executor executor(gpu::device(), gpu::shaders());
-    std::vector<FrameToken> tokens;
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    std::vector<gpu::FrameToken> tokens;
     std::vector<float> seen;
     for (int i = 0; i < 6; ++i) {
-        Graph graph;
+        graph::Graph graph;
         graph.readback("shown", add_show(graph, add_fill(graph, {.color = glm::vec3(float(i))})));
         tokens.push_back(executor.submit(graph));
         if (i > 0)
             seen.push_back(
-                executor.finish(tokens[tokens.size() - 2]).mat(ReadbackId{0}).at<cv::Vec4f>(5, 5)[0]);
+                executor.finish(tokens[tokens.size() - 2]).mat(graph::ReadbackId{0}).at<cv::Vec4f>(5, 5)[0]);
     }
     EXPECT_THAT(seen, ElementsAre(0.0f, 1.0f, 2.0f, 3.0f, 4.0f));
     EXPECT_THROW(executor.finish(tokens[0]), std::logic_error);
@@ -352,12 +352,12 @@ TEST_F(ExecutorTest, TwoFramesInFlightKeepTheirOwnResults)
 
 TEST_F(ExecutorTest, ThePresentedImageCanBeCopiedAfterTheFrame)
 {
-    Executor executor(gpu::device(), gpu::shaders());
-    Graph graph;
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    graph::Graph graph;
     graph.present(add_fill(graph, {}));
-    const FrameResult result = executor.run(graph);
-    const Buffer copy(gpu::device(), std::size_t{16} * small_float.width * small_float.height,
-                      VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostAccess::Read, "copy");
+    const gpu::FrameResult result = executor.run(graph);
+    const gpu::Buffer copy(gpu::device(), std::size_t{16} * small_float.width * small_float.height,
+                           VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::HostAccess::Read, "copy");
     gpu::device().run_once([&](VkCommandBuffer commands) {
         const VkBufferImageCopy region{
             .imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
@@ -374,13 +374,13 @@ TEST_F(ExecutorTest, ThePresentedImageCanBeCopiedAfterTheFrame)
 
 TEST_F(ExecutorTest, AWrongDeclarationNamesAllMistakesAndHarmsNothing)
 {
-    Executor executor(gpu::device(), gpu::shaders());
-    Graph good;
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    graph::Graph good;
     good.readback("filled", add_fill(good, {}));
     executor.run(good);
-    Graph bad;
-    const ImageId filled = add_fill(bad, {});
-    std::get<ComputePass>(bad.passes.back()).uniform("colour", 1.0f);
+    graph::Graph bad;
+    const graph::ImageId filled = add_fill(bad, {});
+    std::get<graph::ComputePass>(bad.passes.back()).uniform("colour", 1.0f);
     bad.readback("shown", add_show(bad, bad.image("orphan", small_float)));
     bad.readback("filled", filled);
     try {
@@ -395,28 +395,28 @@ TEST_F(ExecutorTest, AWrongDeclarationNamesAllMistakesAndHarmsNothing)
 
 TEST_F(ExecutorTest, AnImageTooLargeForTheDeviceIsTheUsersMistakeAndHarmsNothing)
 {
-    Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     const auto frame = [&](std::uint32_t width) {
-        Graph graph;
-        const ImageId image = graph.image("filled", {width, 1, VK_FORMAT_R32G32B32A32_SFLOAT});
-        ComputePass& fill = graph.compute("fill", "test_fill.comp");
+        graph::Graph graph;
+        const graph::ImageId image = graph.image("filled", {width, 1, VK_FORMAT_R32G32B32A32_SFLOAT});
+        graph::ComputePass& fill = graph.compute("fill", "test_fill.comp");
         fill.store("result", image);
         fill.uniform("params", FillParams{});
         fill.buffer<glm::vec2>("Offsets", {});
         fill.dispatch(width, 1);
         graph.readback("filled", image);
-        return executor.run(graph).mat(ReadbackId{0}).at<cv::Vec4f>(0, 0)[0];
+        return executor.run(graph).mat(graph::ReadbackId{0}).at<cv::Vec4f>(0, 0)[0];
     };
     EXPECT_EQ(frame(8), 0.25f);
-    EXPECT_THROW(frame(1u << 20), cicatrix::InputError);
+    EXPECT_THROW(frame(1u << 20), base::InputError);
     EXPECT_EQ(frame(8), 0.25f);
 }
 
 TEST_F(ExecutorTest, AFrameThatNeedsNothingIsNoError)
 {
-    Executor executor(gpu::device(), gpu::shaders());
-    EXPECT_TRUE(executor.run(Graph{}).passes.empty());
-    Graph graph;
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    EXPECT_TRUE(executor.run(graph::Graph{}).passes.empty());
+    graph::Graph graph;
     add_fill(graph, {});
     EXPECT_THAT(states(executor.run(graph)), ElementsAre("fill culled: unused: nothing samples filled"));
 }

@@ -1,5 +1,5 @@
 // Fits to curves that are known, to published data, and to hostile series.
-#include "wound/fit.hpp"
+#include "wound/healing/fit.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "wound/input_error.hpp"
+#include "base/input_error.hpp"
 
 namespace {
 
@@ -144,7 +144,7 @@ TEST(Fit, HostileSeriesGiveAFiniteFit)
 
 TEST(Fit, OneDayIsRefused)
 {
-    EXPECT_THROW(fit(series({0}, {1})), cicatrix::InputError);
+    EXPECT_THROW(fit(series({0}, {1})), base::InputError);
 }
 
 TEST(Fit, TableOfSeveralWoundsGainsTheirMean)
@@ -210,7 +210,7 @@ TEST(Fit, OneTableGivesTheMeanOfEachGroupAndASceneMayNameIt)
     try {
         wound::curve_from_areas(file, "B9");
         ADD_FAILURE() << "no such series";
-    } catch (const cicatrix::InputError& error) {
+    } catch (const base::InputError& error) {
         EXPECT_NE(std::string(error.what()).find("mean A8, mean Y8, mean"), std::string::npos)
             << error.what();
     }

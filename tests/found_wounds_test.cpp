@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/input_error.hpp"
 #include "tests/composed_photographs.hpp"
-#include "wound/input_error.hpp"
+#include "wound/photo/segmentation.hpp"
 #include "wound/prepare.hpp"
-#include "wound/segmentation.hpp"
 
 namespace {
 
@@ -82,9 +82,8 @@ TEST(FoundWounds, SkinAloneHasNone)
     for (const cv::Vec3b& background :
          {cv::Vec3b(18, 18, 20), {60, 110, 160}, {225, 225, 222}, {150, 110, 70}, {150, 40, 40}})
         for (const cv::Vec3b& skin : {cv::Vec3b(228, 190, 170), {170, 120, 90}, {105, 70, 52}})
-            EXPECT_THROW(wound::segment(compose(limb(background, skin), {}).srgb, {}, "p"),
-                         cicatrix::InputError);
-    EXPECT_THROW(wound::segment(compose({}, {}).srgb, {}, "p"), cicatrix::InputError);
+            EXPECT_THROW(wound::segment(compose(limb(background, skin), {}).srgb, {}, "p"), base::InputError);
+    EXPECT_THROW(wound::segment(compose({}, {}).srgb, {}, "p"), base::InputError);
 }
 
 TEST(FoundWounds, AGeneratedPhotographShowsOne)

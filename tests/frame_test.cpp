@@ -1,50 +1,53 @@
 // The real frame: which passes run again after which change, and that its pictures are reproducible.
 #include <gmock/gmock.h>
 
-#include "apps/stage.hpp"
+#include "stage/stage.hpp"
 #include "tests/gpu.hpp"
 #include "tests/small_head.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace {
 
-using engine::PassState;
+using graph::PassState;
 using testing::IsSupersetOf;
 using testing::UnorderedElementsAre;
 
 /// A scene on the shared device with the memory of what was drawn last.
 struct Studio
 {
-    explicit Studio(const app::Scene& scene)
-        : stage(gpu::device(), scene, app::Stage::prepare(scene)), shading(scene.shading)
+    explicit Studio(const scene::Scene& scene)
+        : stage(gpu::device(), stage::Stage::prepare(scene)), shading(scene.shading)
     {
     }
 
-    engine::FrameResult draw(double day)
+    gpu::FrameResult draw(double day)
     {
-        engine::Graph graph;
-        graph.readback(
-            "picture",
-            stage.declare(graph, stage.wounds_on(day), stage.camera(), shading, stage.scene().size).picture);
+        graph::Graph graph;
+        graph.readback("picture", stage
+                                      .declare(graph, {.day = day,
+                                                       .tile = stage.scene().size,
+                                                       .camera = stage.loaded().camera(),
+                                                       .shading = shading})
+                                      .images.picture);
         return executor.run(graph);
     }
     cv::Mat4b picture(double day) { return draw(day).mat({0}).clone(); }
 
-    app::Stage stage;
-    engine::Executor executor{gpu::device(), gpu::shaders()};
-    passes::Shading shading;
+    stage::Stage stage;
+    gpu::Executor executor{gpu::device(), gpu::shaders()};
+    optics::Shading shading;
 };
 
-std::vector<std::string> passes_in(const engine::FrameResult& frame, PassState state)
+std::vector<std::string> passes_in(const gpu::FrameResult& frame, PassState state)
 {
     std::vector<std::string> names;
-    for (const engine::PassResult& pass : frame.passes)
+    for (const gpu::PassResult& pass : frame.passes)
         if (pass.state == state)
             names.push_back(pass.name);
     return names;
 }
 
-std::vector<std::string> ran(const engine::FrameResult& frame)
+std::vector<std::string> ran(const gpu::FrameResult& frame)
 {
     return passes_in(frame, PassState::Run);
 }
@@ -69,7 +72,7 @@ TEST_F(Frame, RunsAgainOnlyWhatAChangeReaches)
     EXPECT_THAT(ran(studio.draw(3)), UnorderedElementsAre("wound_texture", "wound_relief", "reflectance_lut",
                                                           "shadow", "forward", "tonemap"));
 
-    const engine::FrameResult unchanged = studio.draw(3);
+    const gpu::FrameResult unchanged = studio.draw(3);
     EXPECT_THAT(ran(unchanged), UnorderedElementsAre("forward", "tonemap"));
     EXPECT_THAT(passes_in(unchanged, PassState::Skipped),
                 UnorderedElementsAre("wound_texture", "wound_relief", "reflectance_lut", "shadow"));
@@ -77,8 +80,8 @@ TEST_F(Frame, RunsAgainOnlyWhatAChangeReaches)
     EXPECT_THAT(ran(studio.draw(4)),
                 UnorderedElementsAre("wound_texture", "wound_relief", "forward", "tonemap"));
 
-    app::Scene scene = studio.stage.scene();
-    std::vector<app::LightScene>& lights = scene.lights;
+    scene::Scene scene = studio.stage.scene();
+    std::vector<scene::Light>& lights = scene.lights;
     lights[0].intensity *= 0.5;
     studio.stage.update(scene);
     EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("forward", "tonemap"));
@@ -91,11 +94,11 @@ TEST_F(Frame, RunsAgainOnlyWhatAChangeReaches)
     studio.stage.update(scene);
     EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("forward", "tonemap"));
 
-    studio.stage.set_tissue(wound::skin(wound::SkinTone::Dark));
+    studio.stage.set_tissue(optics::skin(optics::SkinTone::Dark));
     EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("reflectance_lut", "forward", "tonemap"));
 
     studio.shading.shadow = false;
-    const engine::FrameResult unshadowed = studio.draw(4);
+    const gpu::FrameResult unshadowed = studio.draw(4);
     EXPECT_THAT(ran(unshadowed), UnorderedElementsAre("forward", "tonemap"));
     EXPECT_EQ(unshadowed.passes.size(), 6u) << "no shadow pass is declared, and the labels are culled";
 }
@@ -104,10 +107,10 @@ TEST_F(Frame, TakesANumericalReflectanceTableFromTheCpu)
 {
     const TemporaryFolder cache;
     ::setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
-    app::Scene scene = small::scene(small::head(), 128);
+    scene::Scene scene = small::scene(small::head(), 128);
     scene.tissue = "table1"; // three channels only
     Studio calibrated(scene);
-    scene.reflectance_model = wound::Rung::AddingDoubling;
+    scene.reflectance_model = optics::ReflectanceModel::AddingDoubling;
     Studio numerical(scene);
     ::unsetenv("XDG_CACHE_HOME");
     EXPECT_THAT(ran(numerical.draw(9)),
@@ -119,7 +122,7 @@ TEST_F(Frame, TakesANumericalReflectanceTableFromTheCpu)
 
 TEST_F(Frame, OfEveryWoundRunsAgainWhatTheDayReaches)
 {
-    app::Scene scene = small::scene(small::head(), 64);
+    scene::Scene scene = small::scene(small::head(), 64);
     scene.wounds.resize(2);
     scene.wounds[1].place = std::string("forehead");
     scene.wounds[1].healing.curve.delta = 0; // never heals
@@ -133,10 +136,10 @@ TEST_F(Frame, OfEveryWoundRunsAgainWhatTheDayReaches)
 
 TEST_F(Frame, WithoutWoundsDeclaresNoneOfTheirPasses)
 {
-    app::Scene scene = small::scene(small::head());
+    scene::Scene scene = small::scene(small::head());
     scene.wounds.clear();
     Studio studio(scene);
-    const engine::FrameResult first = studio.draw(0);
+    const gpu::FrameResult first = studio.draw(0);
     EXPECT_EQ(first.passes.size(), 4u) << "and the labels are culled";
     EXPECT_THAT(ran(first), UnorderedElementsAre("shadow", "forward", "tonemap"));
     EXPECT_THAT(ran(studio.draw(9)), UnorderedElementsAre("forward", "tonemap"));
@@ -144,7 +147,7 @@ TEST_F(Frame, WithoutWoundsDeclaresNoneOfTheirPasses)
 
 TEST_F(Frame, IsTheSameBitByBitInTwoRuns)
 {
-    const app::Scene scene = small::scene(small::head());
+    const scene::Scene scene = small::scene(small::head());
     Studio first(scene), second(scene);
     second.draw(0); // what was drawn before leaves no trace
     const cv::Mat4b a = first.picture(7), b = second.picture(7);
@@ -154,7 +157,7 @@ TEST_F(Frame, IsTheSameBitByBitInTwoRuns)
 
 TEST_F(Frame, MultisamplingSmoothsEdgesAndLeavesTheRestAlone)
 {
-    app::Scene scene = small::scene(small::head());
+    scene::Scene scene = small::scene(small::head());
     Studio plain(scene);
     scene.samples = 4;
     Studio smooth(scene);

@@ -7,25 +7,24 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/scene_options.hpp"
-#include "apps/stage.hpp"
-#include "engine/image_compare.hpp"
-#include "engine/image_io.hpp"
+#include "base/image_compare.hpp"
+#include "base/image_io.hpp"
+#include "scene/command_line.hpp"
+#include "stage/stage.hpp"
 #include "tests/gpu.hpp"
 #include "tests/small_head.hpp"
 
 namespace {
 
-void compare(engine::Executor& executor, const app::Stage& stage, double day, const std::string& name)
+void compare(gpu::Executor& executor, const stage::Stage& stage, double day, const std::string& name)
 {
-    engine::Graph graph;
-    const passes::FrameImages images =
-        stage.declare(graph, stage.wounds_on(day), stage.camera(), stage.scene().shading, stage.scene().size);
-    const auto radiance = std::ranges::find(graph.images, "radiance", &engine::Graph::Image::name);
-    const engine::ReadbackId ids[] = {
+    graph::Graph graph;
+    const passes::FrameImages images = stage.declare(graph, {.day = day, .tile = stage.scene().size});
+    const auto radiance = std::ranges::find(graph.images, "radiance", &graph::Graph::Image::name);
+    const graph::ReadbackId ids[] = {
         graph.readback("picture", images.picture),
         graph.readback("radiance", {std::uint32_t(radiance - graph.images.begin())})};
-    const engine::FrameResult frame = executor.run(graph);
+    const gpu::FrameResult frame = executor.run(graph);
     cv::Mat3b picture;
     cv::cvtColor(frame.mat(ids[0]), picture, cv::COLOR_RGBA2RGB);
     cv::Mat linear;
@@ -33,9 +32,8 @@ void compare(engine::Executor& executor, const app::Stage& stage, double day, co
 
     const std::filesystem::path golden = std::filesystem::path(CICATRIX_GOLDEN) / (name + ".png");
     if (std::getenv("CICATRIX_WRITE_GOLDEN") != nullptr)
-        engine::write_png(golden, picture);
-    const engine::Comparison comparison =
-        engine::compare_with_golden(linear, picture, golden, "golden_failures");
+        base::write_png(golden, picture);
+    const base::Comparison comparison = base::compare_with_golden(linear, picture, golden, "golden_failures");
     EXPECT_TRUE(comparison.equal) << name << ": " << comparison.report;
 }
 
@@ -45,12 +43,12 @@ using Golden = gpu::Test;
 
 TEST_F(Golden, PicturesAreUnchanged)
 {
-    app::Scene scene = small::scene(small::head());
-    engine::Executor executor(gpu::device(), gpu::shaders());
-    const app::Stage corrected(gpu::device(), scene, app::Stage::prepare(scene));
+    scene::Scene scene = small::scene(small::head());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    const stage::Stage corrected(gpu::device(), stage::Stage::prepare(scene));
     compare(executor, corrected, 0, "corrected_day_0");
     compare(executor, corrected, 10, "corrected_day_10");
-    app::make_published(scene);
-    const app::Stage published(gpu::device(), scene, app::Stage::prepare(scene));
+    scene::make_published(scene);
+    const stage::Stage published(gpu::device(), stage::Stage::prepare(scene));
     compare(executor, published, 10, "published_day_10");
 }

@@ -12,16 +12,16 @@ extern "C" const char* __lsan_default_suppressions()
 
 namespace gpu {
 
-engine::Device& device()
+gpu::Device& device()
 {
-    static engine::Device shared({.validation = true});
+    static gpu::Device shared({.validation = true});
     return shared;
 }
 
-const engine::ShaderLibrary& shaders()
+const graph::ShaderLibrary& shaders()
 {
-    static const engine::ShaderLibrary library = [] {
-        engine::ShaderLibrary all;
+    static const graph::ShaderLibrary library = [] {
+        graph::ShaderLibrary all;
         all.add(engine::test_shaders());
         return all;
     }();

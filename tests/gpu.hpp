@@ -1,8 +1,8 @@
 // The device that all GPU tests of a process share, with validation and synchronisation validation on, and
 // the fixture that turns any of its messages into a failure.
 #pragma once
-#include "engine/device.hpp"
-#include "engine/executor.hpp"
+#include "engine/gpu/device.hpp"
+#include "engine/gpu/executor.hpp"
 
 #include <gtest/gtest.h>
 #include <span>
@@ -15,12 +15,12 @@ std::span<const EmbeddedShader> test_shaders(); // of tests/shaders/, generated
 
 namespace gpu {
 
-/// Made on first use. Throws cicatrix::InputError without a
+/// Made on first use. Throws base::InputError without a
 /// Vulkan device or the validation layer: no test is skipped.
-engine::Device& device();
+gpu::Device& device();
 
 /// The shaders of shaders/ and of tests/shaders/.
-const engine::ShaderLibrary& shaders();
+const graph::ShaderLibrary& shaders();
 
 class Test : public testing::Test
 {

@@ -1,21 +1,20 @@
 // Mistakes in a declaration: all are found and named, with pass and image. No device.
-#include "engine/schedule.hpp"
+#include "engine/graph/schedule.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace {
 
-using namespace engine;
 using testing::HasSubstr;
 
-constexpr ImageDesc target{64, 32, VK_FORMAT_R16G16B16A16_SFLOAT};
-constexpr ImageDesc depth_target{64, 32, VK_FORMAT_D32_SFLOAT};
+constexpr graph::ImageDesc target{64, 32, VK_FORMAT_R16G16B16A16_SFLOAT};
+constexpr graph::ImageDesc depth_target{64, 32, VK_FORMAT_D32_SFLOAT};
 
-std::string mistakes(const Graph& graph)
+std::string mistakes(const graph::Graph& graph)
 {
     try {
-        (void)schedule(graph, {});
+        (void)graph::schedule(graph, {});
     } catch (const std::logic_error& error) {
         return error.what();
     }
@@ -26,10 +25,10 @@ std::string mistakes(const Graph& graph)
 
 TEST(GraphCheck, NamesEveryMistakeAtOnce)
 {
-    Graph graph;
-    const ImageId orphan = graph.image("orphan", target);
-    const ImageId texture = graph.import("albedo", ExternalImage{target, VK_NULL_HANDLE, 1});
-    ComputePass& own = graph.compute("own", "own.comp");
+    graph::Graph graph;
+    const graph::ImageId orphan = graph.image("orphan", target);
+    const graph::ImageId texture = graph.import("albedo", graph::ExternalImage{target, VK_NULL_HANDLE, 1});
+    graph::ComputePass& own = graph.compute("own", "own.comp");
     own.sample("input", orphan);
     own.store("output", texture);
     own.dispatch(0, 8);
@@ -43,10 +42,10 @@ TEST(GraphCheck, NamesEveryMistakeAtOnce)
 
 TEST(GraphCheck, FindsWritersOnACycle)
 {
-    Graph graph;
-    const ImageId a = graph.image("a_image", target), b = graph.image("b_image", target);
+    graph::Graph graph;
+    const graph::ImageId a = graph.image("a_image", target), b = graph.image("b_image", target);
     for (const auto& [name, from, to] : {std::tuple{"a", b, a}, std::tuple{"b", a, b}}) {
-        ComputePass& pass = graph.compute(name, "x.comp");
+        graph::ComputePass& pass = graph.compute(name, "x.comp");
         pass.sample("input", from);
         pass.store("output", to);
         pass.dispatch(1, 1);
@@ -57,9 +56,9 @@ TEST(GraphCheck, FindsWritersOnACycle)
 
 TEST(GraphCheck, RefusesSamplingWhatThePassItselfWrites)
 {
-    Graph graph;
-    const ImageId image = graph.image("image", target);
-    ComputePass& pass = graph.compute("pass", "x.comp");
+    graph::Graph graph;
+    const graph::ImageId image = graph.image("image", target);
+    graph::ComputePass& pass = graph.compute("pass", "x.comp");
     pass.sample("input", image);
     pass.store("output", image);
     pass.dispatch(1, 1);
@@ -68,8 +67,8 @@ TEST(GraphCheck, RefusesSamplingWhatThePassItselfWrites)
 
 TEST(GraphCheck, RefusesTargetsOfTwoSizesOrSampleCounts)
 {
-    Graph graph;
-    RasterPass& pass = graph.raster("forward");
+    graph::Graph graph;
+    graph::RasterPass& pass = graph.raster("forward");
     pass.color(graph.image("color", target), {});
     pass.depth(graph.image("depth", {64, 64, VK_FORMAT_D32_SFLOAT, 4}));
     pass.draw("forward").index_count = 3;
@@ -80,8 +79,8 @@ TEST(GraphCheck, RefusesTargetsOfTwoSizesOrSampleCounts)
 
 TEST(GraphCheck, RefusesWrongResolves)
 {
-    Graph graph;
-    RasterPass& pass = graph.raster("forward");
+    graph::Graph graph;
+    graph::RasterPass& pass = graph.raster("forward");
     pass.color(graph.image("single", target), {}, graph.image("resolved", {8, 8, VK_FORMAT_R8G8B8A8_UNORM}));
     pass.draw("forward").index_count = 3;
     const std::string text = mistakes(graph);
@@ -91,11 +90,11 @@ TEST(GraphCheck, RefusesWrongResolves)
 
 TEST(GraphCheck, RefusesDoubleNamesWritersAndReadbacks)
 {
-    Graph graph;
-    const ImageId image = graph.image("image", target);
+    graph::Graph graph;
+    const graph::ImageId image = graph.image("image", target);
     graph.image("image", target);
     for (int i = 0; i < 2; ++i) {
-        ComputePass& pass = graph.compute("pass", "x.comp");
+        graph::ComputePass& pass = graph.compute("pass", "x.comp");
         pass.store("output", image);
         pass.dispatch(1, 1);
         graph.readback("picture", image);
@@ -109,10 +108,11 @@ TEST(GraphCheck, RefusesDoubleNamesWritersAndReadbacks)
 
 TEST(GraphCheck, RefusesToFilterDepth)
 {
-    Graph graph;
-    const ImageId depth = graph.import("shadow", ExternalImage{depth_target, VK_NULL_HANDLE, 1});
-    ComputePass& pass = graph.compute("pass", "x.comp");
-    pass.sample("shadow", depth, Sampler::LinearClamp);
+    graph::Graph graph;
+    const graph::ImageId depth =
+        graph.import("shadow", graph::ExternalImage{depth_target, VK_NULL_HANDLE, 1});
+    graph::ComputePass& pass = graph.compute("pass", "x.comp");
+    pass.sample("shadow", depth, graph::Sampler::LinearClamp);
     pass.store("output", graph.image("image", target));
     pass.dispatch(1, 1);
     EXPECT_THAT(mistakes(graph), HasSubstr("pass pass: samples shadow with a filter"));
@@ -120,15 +120,15 @@ TEST(GraphCheck, RefusesToFilterDepth)
 
 TEST(GraphCheck, RefusesImpossibleImagesAndPasses)
 {
-    Graph graph;
+    graph::Graph graph;
     graph.image("flat", {0, 8, VK_FORMAT_R8G8B8A8_UNORM});
     graph.image("odd", {8, 8, VK_FORMAT_R8G8B8A8_UNORM, 3});
     graph.image("strange", {8, 8, VK_FORMAT_ASTC_4x4_UNORM_BLOCK});
     graph.raster("nothing");
-    ComputePass& lost = graph.compute("lost", "x.comp");
-    lost.sample("input", ImageId{});
+    graph::ComputePass& lost = graph.compute("lost", "x.comp");
+    lost.sample("input", graph::ImageId{});
     lost.dispatch(1, 1);
-    RasterPass& wrong = graph.raster("wrong");
+    graph::RasterPass& wrong = graph.raster("wrong");
     wrong.color(graph.image("depth", depth_target), {});
     wrong.draw("wrong");
     const std::string text = mistakes(graph);

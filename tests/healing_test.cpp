@@ -1,11 +1,11 @@
 // H3 against its definition, in wider arithmetic; the two ways of closing; validation.
-#include "wound/healing.hpp"
+#include "wound/healing/healing.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "wound/input_error.hpp"
+#include "base/input_error.hpp"
 
 namespace {
 
@@ -109,7 +109,7 @@ TEST(Healing, ValidationNamesFileAndField)
     const auto message = [](H3 curve, double residual) {
         try {
             wound::validate(Healing{curve, HealingModel::face, residual}, "scene.json");
-        } catch (const cicatrix::InputError& error) {
+        } catch (const base::InputError& error) {
             return std::string(error.what());
         }
         return std::string();

@@ -1,15 +1,15 @@
-#include "engine/image_compare.hpp"
+#include "base/image_compare.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "engine/image_io.hpp"
+#include "base/image_io.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-using engine::compare_images;
+using base::compare_images;
 
 // 100 x 100 = 10 000 pixels: 0.1 % is ten of them.
 cv::Mat3b picture()
@@ -36,7 +36,7 @@ class GoldenTest : public testing::Test
     {
         fs::remove_all(folder);
         fs::create_directories(folder);
-        engine::write_png(golden, picture());
+        base::write_png(golden, picture());
     }
     void TearDown() override { fs::remove_all(folder); }
 
@@ -101,25 +101,25 @@ TEST(ImageCompare, BoundsAreTheCallers)
 TEST(ImageCompare, NonFinitePixelIsFoundWhereItIs)
 {
     cv::Mat4f linear(8, 8, cv::Vec4f::all(1));
-    EXPECT_FALSE(engine::first_non_finite(linear));
+    EXPECT_FALSE(base::first_non_finite(linear));
     linear(5, 3)[1] = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(engine::first_non_finite(linear), cv::Point(3, 5));
+    EXPECT_EQ(base::first_non_finite(linear), cv::Point(3, 5));
     linear(2, 7)[3] = -std::numeric_limits<float>::infinity();
-    EXPECT_EQ(engine::first_non_finite(linear), cv::Point(7, 2));
+    EXPECT_EQ(base::first_non_finite(linear), cv::Point(7, 2));
 }
 
 TEST_F(GoldenTest, EqualPictureWritesNothing)
 {
-    EXPECT_TRUE(engine::compare_with_golden(cv::Mat4f(), picture(), golden, failures).equal);
+    EXPECT_TRUE(base::compare_with_golden(cv::Mat4f(), picture(), golden, failures).equal);
     EXPECT_FALSE(fs::exists(failures));
 }
 
 TEST_F(GoldenTest, FailureWritesActualExpectedAndAmplifiedDifference)
 {
-    EXPECT_FALSE(engine::compare_with_golden(cv::Mat4f(), changed(20, 8), golden, failures).equal);
-    EXPECT_EQ(engine::read_rgb(failures / "face_actual.png")(0, 19)[2], 136);
-    EXPECT_EQ(engine::read_rgb(failures / "face_expected.png")(0, 19)[2], 128);
-    const cv::Mat3b difference = engine::read_rgb(failures / "face_difference.png");
+    EXPECT_FALSE(base::compare_with_golden(cv::Mat4f(), changed(20, 8), golden, failures).equal);
+    EXPECT_EQ(base::read_rgb(failures / "face_actual.png")(0, 19)[2], 136);
+    EXPECT_EQ(base::read_rgb(failures / "face_expected.png")(0, 19)[2], 128);
+    const cv::Mat3b difference = base::read_rgb(failures / "face_difference.png");
     EXPECT_EQ(difference(0, 19), cv::Vec3b(0, 0, 128));
     EXPECT_EQ(difference(0, 20), cv::Vec3b(0, 0, 0));
 }
@@ -128,7 +128,7 @@ TEST_F(GoldenTest, NotANumberFailsEvenWhenTheEncodedPictureIsEqual)
 {
     cv::Mat3f linear(100, 100, cv::Vec3f::all(0));
     linear(50, 40)[0] = std::numeric_limits<float>::quiet_NaN();
-    const auto found = engine::compare_with_golden(linear, picture(), golden, failures);
+    const auto found = base::compare_with_golden(linear, picture(), golden, failures);
     EXPECT_FALSE(found.equal);
     EXPECT_THAT(found.report, testing::HasSubstr("(40, 50)"));
     EXPECT_TRUE(fs::exists(failures / "face_actual.png"));
@@ -136,7 +136,7 @@ TEST_F(GoldenTest, NotANumberFailsEvenWhenTheEncodedPictureIsEqual)
 
 TEST_F(GoldenTest, MissingGoldenFailsAndLeavesThePictureToLookAt)
 {
-    const auto found = engine::compare_with_golden(cv::Mat4f(), picture(), folder / "new.png", failures);
+    const auto found = base::compare_with_golden(cv::Mat4f(), picture(), folder / "new.png", failures);
     EXPECT_FALSE(found.equal);
     EXPECT_TRUE(fs::exists(failures / "new_actual.png"));
     EXPECT_FALSE(fs::exists(failures / "new_expected.png"));

@@ -1,5 +1,5 @@
 // Pictures in and out of files.
-#include "engine/image_io.hpp"
+#include "base/image_io.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
+#include "base/input_error.hpp"
 #include "tests/temporary_folder.hpp"
-#include "wound/input_error.hpp"
 
 namespace {
 
@@ -37,7 +37,7 @@ std::string refusal(Read&& read)
     try {
         read();
         return "";
-    } catch (const cicatrix::InputError& error) {
+    } catch (const base::InputError& error) {
         return error.what();
     }
 }
@@ -52,27 +52,27 @@ TEST_F(PictureFile, PngKeepsEveryPixelInRgbOrder)
 {
     cv::Mat3b rgb = noise(13, 17);
     rgb(2, 3) = {255, 1, 2};
-    engine::write_png(folder_ / "a.png", rgb);
-    EXPECT_EQ(cv::norm(engine::read_rgb(folder_ / "a.png"), rgb, cv::NORM_INF), 0);
+    base::write_png(folder_ / "a.png", rgb);
+    EXPECT_EQ(cv::norm(base::read_rgb(folder_ / "a.png"), rgb, cv::NORM_INF), 0);
     EXPECT_EQ(cv::imread((folder_ / "a.png").string()).at<cv::Vec3b>(2, 3),
               cv::Vec3b(2, 1, 255)); // OpenCV: BGR
 }
 
 TEST_F(PictureFile, AlphaIsWrittenAndDroppedOnReading)
 {
-    engine::write_png(folder_ / "a.png", cv::Mat4b(4, 4, cv::Vec4b(10, 20, 30, 0)));
+    base::write_png(folder_ / "a.png", cv::Mat4b(4, 4, cv::Vec4b(10, 20, 30, 0)));
     EXPECT_EQ(cv::imread((folder_ / "a.png").string(), cv::IMREAD_UNCHANGED).at<cv::Vec4b>(0, 0),
               cv::Vec4b(30, 20, 10, 0));
-    EXPECT_EQ(engine::read_rgb(folder_ / "a.png")(1, 1), cv::Vec3b(10, 20, 30));
+    EXPECT_EQ(base::read_rgb(folder_ / "a.png")(1, 1), cv::Vec3b(10, 20, 30));
 }
 
 TEST_F(PictureFile, GrayAndSixteenBitPicturesAreRead)
 {
-    engine::write_png(folder_ / "gray.png", cv::Mat1b(3, 3, uchar(99)));
-    EXPECT_EQ(engine::read_rgb(folder_ / "gray.png")(0, 0), cv::Vec3b(99, 99, 99));
+    base::write_png(folder_ / "gray.png", cv::Mat1b(3, 3, uchar(99)));
+    EXPECT_EQ(base::read_rgb(folder_ / "gray.png")(0, 0), cv::Vec3b(99, 99, 99));
     const auto deep =
         folder_.with("deep.png", encoded(".png", cv::Mat(3, 3, CV_16UC3, cv::Scalar(65535, 32896, 0))));
-    EXPECT_EQ(engine::read_rgb(deep)(2, 2), cv::Vec3b(0, 128, 255));
+    EXPECT_EQ(base::read_rgb(deep)(2, 2), cv::Vec3b(0, 128, 255));
 }
 
 TEST_F(PictureFile, JpegIsTurnedUprightByItsExifOrientation)
@@ -90,11 +90,11 @@ TEST_F(PictureFile, JpegIsTurnedUprightByItsExifOrientation)
                            "\0\0\0\0",
                            36);
     jpeg.insert(2, exif);
-    const cv::Mat3b upright = engine::read_rgb(folder_.with("a.jpg", jpeg));
+    const cv::Mat3b upright = base::read_rgb(folder_.with("a.jpg", jpeg));
     ASSERT_EQ(upright.size(), cv::Size(16, 32));
     EXPECT_GT(upright(4, 8)[0], 200);
     EXPECT_LT(upright(28, 8)[0], 50);
-    const cv::Mat1b mask = engine::read_mask(folder_ / "a.jpg");
+    const cv::Mat1b mask = base::read_mask(folder_ / "a.jpg");
     ASSERT_EQ(mask.size(), cv::Size(16, 32));
     EXPECT_EQ(mask(4, 8), 255);
     EXPECT_EQ(mask(28, 8), 0);
@@ -107,17 +107,17 @@ TEST_F(PictureFile, MaskIsLuminanceTimesAlphaAboveHalf)
     picture(0, 1) = {255, 255, 255, 100};
     picture(0, 2) = {100, 100, 100, 255};
     picture(0, 3) = {200, 200, 200, 200};
-    engine::write_png(folder_ / "a.png", picture);
-    const cv::Mat1b mask = engine::read_mask(folder_ / "a.png");
+    base::write_png(folder_ / "a.png", picture);
+    const cv::Mat1b mask = base::read_mask(folder_ / "a.png");
     EXPECT_EQ(std::vector<uchar>(mask.begin(), mask.end()), (std::vector<uchar>{255, 0, 0, 255}));
-    engine::write_png(folder_ / "b.png", cv::Mat1b(2, 2, uchar(128)));
-    EXPECT_EQ(engine::read_mask(folder_ / "b.png")(0, 0), 255);
+    base::write_png(folder_ / "b.png", cv::Mat1b(2, 2, uchar(128)));
+    EXPECT_EQ(base::read_mask(folder_ / "b.png")(0, 0), 255);
 }
 
 TEST_F(PictureFile, ExrKeepsLinearFloats)
 {
     cv::Mat3f picture(5, 7, cv::Vec3f(0.25f, 1e-3f, 1000.5f));
-    engine::write_exr(folder_ / "a.exr", picture);
+    base::write_exr(folder_ / "a.exr", picture);
     const cv::Mat read = cv::imread((folder_ / "a.exr").string(), cv::IMREAD_UNCHANGED);
     ASSERT_EQ(read.type(), CV_32FC3);
     EXPECT_EQ(read.at<cv::Vec3f>(4, 6), cv::Vec3f(1000.5f, 1e-3f, 0.25f));
@@ -125,13 +125,13 @@ TEST_F(PictureFile, ExrKeepsLinearFloats)
 
 TEST_F(PictureFile, MissingForeignAndEmptyFilesAreRefused)
 {
-    EXPECT_THAT(refusal([&] { engine::read_rgb(folder_ / "absent.png"); }),
+    EXPECT_THAT(refusal([&] { base::read_rgb(folder_ / "absent.png"); }),
                 HasSubstr("absent.png: there is no such file"));
-    EXPECT_THAT(refusal([&] { engine::read_rgb(folder_.path()); }), HasSubstr("not a regular file"));
-    EXPECT_THAT(refusal([&] { engine::read_rgb(folder_.with("a", "")); }), HasSubstr("empty"));
-    EXPECT_THAT(refusal([&] { engine::read_mask(folder_.with("a", "P3 some text")); }),
+    EXPECT_THAT(refusal([&] { base::read_rgb(folder_.path()); }), HasSubstr("not a regular file"));
+    EXPECT_THAT(refusal([&] { base::read_rgb(folder_.with("a", "")); }), HasSubstr("empty"));
+    EXPECT_THAT(refusal([&] { base::read_mask(folder_.with("a", "P3 some text")); }),
                 HasSubstr("not a picture"));
-    EXPECT_THAT(refusal([&] { engine::read_rgb("/dev/zero"); }), HasSubstr("not a regular file"));
+    EXPECT_THAT(refusal([&] { base::read_rgb("/dev/zero"); }), HasSubstr("not a regular file"));
 }
 
 TEST_F(PictureFile, EveryTruncationIsRefused)
@@ -140,7 +140,7 @@ TEST_F(PictureFile, EveryTruncationIsRefused)
         const std::string bytes = encoded(extension, noise(24, 24));
         for (std::size_t length = 1; length < bytes.size(); length += 1 + bytes.size() / 150) {
             const auto path = folder_.with("a", bytes.substr(0, length));
-            EXPECT_NE(refusal([&] { engine::read_rgb(path); }), "") << extension << " " << length;
+            EXPECT_NE(refusal([&] { base::read_rgb(path); }), "") << extension << " " << length;
         }
     }
 }
@@ -149,14 +149,14 @@ TEST_F(PictureFile, JpegWithMoreBehindItsEndIsRead)
 {
     const auto path =
         folder_.with("a.jpg", encoded(".jpg", noise(24, 24)) + "a film, as telephones append it");
-    EXPECT_EQ(engine::read_rgb(path).size(), cv::Size(24, 24));
+    EXPECT_EQ(base::read_rgb(path).size(), cv::Size(24, 24));
 }
 
 TEST_F(PictureFile, AbsurdSizesAreRefusedBeforeDecoding)
 {
     std::string bytes = encoded(".png", noise(4, 4));
     bytes[18] = '\x7f'; // IHDR's width
-    EXPECT_THAT(refusal([&] { engine::read_rgb(folder_.with("a.png", bytes)); }),
+    EXPECT_THAT(refusal([&] { base::read_rgb(folder_.with("a.png", bytes)); }),
                 HasSubstr("make it at most 16384"));
 }
 
@@ -171,8 +171,8 @@ TEST_F(PictureFile, DamagedPicturesNeverCrashAndNothingIsPrinted)
             for (unsigned flips = 1 + random() % 6; flips > 0; --flips)
                 bytes[random() % bytes.size()] = static_cast<char>(random());
             const auto path = folder_.with("a", bytes);
-            refusal([&] { engine::read_rgb(path); });
-            refusal([&] { engine::read_mask(path); });
+            refusal([&] { base::read_rgb(path); });
+            refusal([&] { base::read_mask(path); });
         }
     }
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
@@ -181,11 +181,11 @@ TEST_F(PictureFile, DamagedPicturesNeverCrashAndNothingIsPrinted)
 TEST_F(PictureFile, AFailedWriteLeavesTheOldFileAndNoTemporary)
 {
     const auto path = folder_.with("a.txt", "old");
-    EXPECT_THROW(engine::write_atomically(path,
-                                          [](const std::filesystem::path& temporary) {
-                                              std::ofstream(temporary) << "half";
-                                              throw std::runtime_error("stop");
-                                          }),
+    EXPECT_THROW(base::write_atomically(path,
+                                        [](const std::filesystem::path& temporary) {
+                                            std::ofstream(temporary) << "half";
+                                            throw std::runtime_error("stop");
+                                        }),
                  std::runtime_error);
     std::string content;
     std::ifstream(path) >> content;
@@ -196,9 +196,9 @@ TEST_F(PictureFile, AFailedWriteLeavesTheOldFileAndNoTemporary)
 TEST_F(PictureFile, UnwritablePlacesAreNamed)
 {
     const cv::Mat3b picture(2, 2, cv::Vec3b(1, 2, 3));
-    EXPECT_THAT(refusal([&] { engine::write_png(folder_ / "no/such/a.png", picture); }),
+    EXPECT_THAT(refusal([&] { base::write_png(folder_ / "no/such/a.png", picture); }),
                 HasSubstr("there is no folder"));
-    EXPECT_THAT(refusal([&] { engine::write_png(folder_.path(), picture); }), HasSubstr("cannot be written"));
+    EXPECT_THAT(refusal([&] { base::write_png(folder_.path(), picture); }), HasSubstr("cannot be written"));
 }
 
 } // namespace

@@ -3,14 +3,13 @@
 #include <gmock/gmock.h>
 #include <string>
 
-#include "engine/keyboard.hpp"
+#include "engine/window/keyboard.hpp"
 
 namespace {
 
-using namespace engine;
-using enum KeyEvent::Kind;
+using enum window::KeyEvent::Kind;
 
-void press(Keyboard& keyboard, int key, char32_t text = 0)
+void press(window::Keyboard& keyboard, int key, char32_t text = 0)
 {
     keyboard.add({.kind = Down, .key = key, .press = {.key = key}});
     if (text != 0)
@@ -18,7 +17,7 @@ void press(Keyboard& keyboard, int key, char32_t text = 0)
     keyboard.add({.kind = Up, .key = key});
 }
 
-void type(Keyboard& keyboard, const std::string& text)
+void type(window::Keyboard& keyboard, const std::string& text)
 {
     for (const char c : text)
         press(keyboard, c, char32_t(c));
@@ -26,13 +25,13 @@ void type(Keyboard& keyboard, const std::string& text)
 
 /// What an interface that looks once a frame makes of it: text, <key> for a key found down that was up
 /// before, a | wherever such a key can first have had its effect, and ^ before a key with shift.
-std::string seen(Keyboard& keyboard, bool text_wanted = true)
+std::string seen(window::Keyboard& keyboard, bool text_wanted = true)
 {
     std::string text;
     std::array<bool, GLFW_KEY_LAST + 1> down{}, before{};
     for (int frame = 0; !keyboard.empty() && frame < 100; ++frame) {
-        const FrameKeys keys = keyboard.take(text_wanted);
-        for (const KeyChange& change : keys.changes)
+        const window::FrameKeys keys = keyboard.take(text_wanted);
+        for (const window::KeyChange& change : keys.changes)
             down[std::size_t(change.key)] = change.down;
         for (const int key : {GLFW_KEY_TAB, GLFW_KEY_ENTER, GLFW_KEY_SPACE})
             if (down[std::size_t(key)] && !before[std::size_t(key)])
@@ -46,18 +45,18 @@ std::string seen(Keyboard& keyboard, bool text_wanted = true)
 
 } // namespace
 
-TEST(Keyboard, TellsAWordInOneFrame)
+TEST(window::Keyboard, TellsAWordInOneFrame)
 {
-    Keyboard keyboard;
+    window::Keyboard keyboard;
     type(keyboard, "word");
-    const FrameKeys keys = keyboard.take(true);
+    const window::FrameKeys keys = keyboard.take(true);
     EXPECT_EQ(std::u32string(keys.text.begin(), keys.text.end()), U"word");
     EXPECT_TRUE(keyboard.empty());
 }
 
-TEST(Keyboard, KeepsTextAndKeysThatWriteNothingInOrder)
+TEST(window::Keyboard, KeepsTextAndKeysThatWriteNothingInOrder)
 {
-    Keyboard keyboard;
+    window::Keyboard keyboard;
     type(keyboard, "96");
     press(keyboard, GLFW_KEY_TAB);
     type(keyboard, "64");
@@ -68,21 +67,21 @@ TEST(Keyboard, KeepsTextAndKeysThatWriteNothingInOrder)
     EXPECT_EQ(seen(keyboard), "96<258>64<258><258><32> <257>");
 }
 
-TEST(Keyboard, GivesAKeyThatWritesNothingTheNextFrameToItself)
+TEST(window::Keyboard, GivesAKeyThatWritesNothingTheNextFrameToItself)
 {
-    Keyboard keyboard;
+    window::Keyboard keyboard;
     press(keyboard, GLFW_KEY_TAB);
     type(keyboard, "a");
     EXPECT_THAT(keyboard.take(true).changes, testing::SizeIs(1));
-    const FrameKeys after = keyboard.take(true);
+    const window::FrameKeys after = keyboard.take(true);
     EXPECT_THAT(after.changes, testing::SizeIs(1)); // up again
     EXPECT_THAT(after.text, testing::IsEmpty());
     EXPECT_THAT(keyboard.take(true).text, testing::ElementsAre(U'a'));
 }
 
-TEST(Keyboard, KeepsShiftWithItsKey)
+TEST(window::Keyboard, KeepsShiftWithItsKey)
 {
-    Keyboard keyboard;
+    window::Keyboard keyboard;
     type(keyboard, "a");
     keyboard.add({.kind = Down, .key = GLFW_KEY_LEFT_SHIFT});
     keyboard.add({.kind = Down, .key = GLFW_KEY_TAB});
@@ -96,9 +95,9 @@ TEST(Keyboard, KeepsShiftWithItsKey)
     EXPECT_EQ(seen(keyboard), "a^<258>Bc<258>");
 }
 
-TEST(Keyboard, DoesNotLayControlOverTextBeforeIt)
+TEST(window::Keyboard, DoesNotLayControlOverTextBeforeIt)
 {
-    Keyboard keyboard;
+    window::Keyboard keyboard;
     type(keyboard, "ab");
     keyboard.add({.kind = Down, .key = GLFW_KEY_LEFT_CONTROL});
     press(keyboard, GLFW_KEY_S);
@@ -108,20 +107,20 @@ TEST(Keyboard, DoesNotLayControlOverTextBeforeIt)
 }
 
 // A letter that opens a dialog must not be written into it.
-TEST(Keyboard, WritesNothingWhereNoTextIsWanted)
+TEST(window::Keyboard, WritesNothingWhereNoTextIsWanted)
 {
-    Keyboard keyboard;
+    window::Keyboard keyboard;
     type(keyboard, "h");
-    const FrameKeys keys = keyboard.take(false);
+    const window::FrameKeys keys = keyboard.take(false);
     EXPECT_THAT(keys.presses, testing::SizeIs(1));
     EXPECT_THAT(keys.text, testing::IsEmpty());
     keyboard.take(true);
     EXPECT_TRUE(keyboard.empty());
 }
 
-TEST(Keyboard, TellsAHeldKeysRepeatsAtOnce)
+TEST(window::Keyboard, TellsAHeldKeysRepeatsAtOnce)
 {
-    Keyboard keyboard;
+    window::Keyboard keyboard;
     keyboard.add({.kind = Down, .key = GLFW_KEY_RIGHT, .press = {.key = GLFW_KEY_RIGHT}});
     for (int i = 0; i < 30; ++i)
         keyboard.add({.kind = Repeat, .key = GLFW_KEY_RIGHT, .press = {.key = GLFW_KEY_RIGHT}});

@@ -4,11 +4,11 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/camera_record.hpp"
-#include "apps/stage.hpp"
-#include "engine/image_io.hpp"
+#include "base/image_io.hpp"
+#include "head/albedo_under.hpp"
 #include "passes/labels.hpp"
-#include "passes/skin_under.hpp"
+#include "stage/camera_record.hpp"
+#include "stage/stage.hpp"
 #include "tests/gpu.hpp"
 #include "tests/small_head.hpp"
 #include "tests/temporary_folder.hpp"
@@ -36,27 +36,27 @@ cv::Mat4f floats(const cv::Mat& halves)
 }
 
 /// Straight at the wall's middle, or `degrees` from the side; 126 mm across.
-passes::Camera before_the_wall(double degrees = 0)
+head::Camera before_the_wall(double degrees = 0)
 {
     const double angle = glm::radians(degrees);
     return {0.6 * glm::dvec3(std::sin(angle), 0, std::cos(angle)), glm::dvec3(0), 12};
 }
 
-Labelled labelled(const app::Stage& stage, double day, const passes::Camera& camera)
+Labelled labelled(const stage::Stage& stage, double day, const head::Camera& camera)
 {
-    engine::Executor executor(gpu::device(), gpu::shaders());
-    const app::Scene& scene = stage.scene();
-    engine::Graph graph;
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    const scene::Scene& scene = stage.scene();
+    graph::Graph graph;
     const passes::FrameImages images =
-        stage.declare(graph, stage.wounds_on(day), camera, scene.shading, scene.size);
+        stage.declare(graph, {.day = day, .tile = scene.size, .camera = camera, .shading = scene.shading});
     const auto picture = graph.readback("picture", images.picture);
     const auto kinds = graph.readback("kinds", images.labels.kinds);
     const auto measures = graph.readback("measures", images.labels.measures);
-    std::vector<std::array<engine::ReadbackId, 2>> wounds;
+    std::vector<std::array<graph::ReadbackId, 2>> wounds;
     for (const passes::WoundTexture& wound : images.wounds)
         wounds.push_back({graph.readback(fmt::format("state {}", wounds.size()), wound.state),
                           graph.readback(fmt::format("relief {}", wounds.size()), wound.relief)});
-    const engine::FrameResult frame = executor.run(graph);
+    const gpu::FrameResult frame = executor.run(graph);
 
     Labelled result{frame.mat(picture).clone(),
                     frame.mat(kinds).clone(),
@@ -64,28 +64,28 @@ Labelled labelled(const app::Stage& stage, double day, const passes::Camera& cam
                     {},
                     {},
                     {},
-                    app::camera_record(stage, camera, scene.size)};
+                    stage::camera_record(stage, camera, scene.size)};
     result.maps = passes::label_maps(result.kinds, result.measures);
     result.visible = passes::visible_wounds(result.kinds, result.measures, wounds.size());
     for (std::size_t i = 0; i < wounds.size(); ++i) {
         const cv::Mat4f state = floats(frame.mat(wounds[i][0])), relief = floats(frame.mat(wounds[i][1]));
-        result.size.push_back(passes::wound_size(stage.surface_mm2(i), state, relief));
+        result.size.push_back(passes::wound_size(stage.loaded().surface_mm2(i), state, relief));
     }
     return result;
 }
 
-Labelled labelled(const app::Stage& stage, double day)
+Labelled labelled(const stage::Stage& stage, double day)
 {
-    return labelled(stage, day, stage.camera());
+    return labelled(stage, day, stage.loaded().camera());
 }
 
-app::Stage stage_of(const app::Scene& scene)
+stage::Stage stage_of(const scene::Scene& scene)
 {
-    return {gpu::device(), scene, app::Stage::prepare(scene)};
+    return {gpu::device(), stage::Stage::prepare(scene)};
 }
 
 /// A round wound of `width_mm` in the middle of what the camera sees in front.
-app::Scene disc_scene(const engine::Model& model, double width_mm, std::uint32_t side = 512)
+scene::Scene disc_scene(const head::Model& model, double width_mm, std::uint32_t side = 512)
 {
     static const TemporaryFolder folder;
     cv::Mat3b photo(512, 512, cv::Vec3b(208, 162, 140));
@@ -94,9 +94,9 @@ app::Scene disc_scene(const engine::Model& model, double width_mm, std::uint32_t
         for (int x = 0; x < 512; ++x)
             mask(y, x) = std::hypot(x - 255.5, y - 255.5) < 100 ? 255 : 0;
     photo.setTo(cv::Vec3b(140, 40, 36), mask);
-    engine::write_png(folder / "disc.png", photo);
-    engine::write_png(folder / "disc_mask.png", mask);
-    app::Scene scene = small::scene(model, side);
+    base::write_png(folder / "disc.png", photo);
+    base::write_png(folder / "disc_mask.png", mask);
+    scene::Scene scene = small::scene(model, side);
     scene.wounds[0].photo = folder / "disc.png";
     scene.wounds[0].mask = folder / "disc_mask.png";
     scene.wounds[0].place = glm::dvec3(0, 0, 0);
@@ -121,7 +121,7 @@ class Labels : public gpu::Test
 
 TEST_F(Labels, OnAWallPixelsAndSurfaceAgreeWithTheDisc)
 {
-    const app::Stage stage = stage_of(disc_scene(small::wall({.6f, .4f, .3f}), 40));
+    const stage::Stage stage = stage_of(disc_scene(small::wall({.6f, .4f, .3f}), 40));
     const Labelled day = labelled(stage, 0, before_the_wall());
     const double mm_per_px = day.maps.distance_mm(256, 256) / day.focal_px();
     EXPECT_NEAR(day.size[0].inside_mm2 / disc_mm2(40), 1, .01);
@@ -137,7 +137,7 @@ TEST_F(Labels, OnAWallPixelsAndSurfaceAgreeWithTheDisc)
 
 TEST_F(Labels, SeenFromTheSideTheSurfaceStaysAndThePixelsShrink)
 {
-    const app::Stage stage = stage_of(disc_scene(small::wall({.6f, .4f, .3f}), 40));
+    const stage::Stage stage = stage_of(disc_scene(small::wall({.6f, .4f, .3f}), 40));
     const Labelled day = labelled(stage, 0, before_the_wall(60));
     EXPECT_NEAR(day.visible[0].inside_mm2 / disc_mm2(40), 1, .01);
     const double mm_per_px = day.maps.distance_mm(256, 256) / day.focal_px();
@@ -146,9 +146,9 @@ TEST_F(Labels, SeenFromTheSideTheSurfaceStaysAndThePixelsShrink)
 
 TEST_F(Labels, OnARoundHeadTheSurfaceIsLargerThanItsPicture)
 {
-    app::Scene scene = disc_scene(small::head(), 70, 1024);
-    scene.wounds[0].place = passes::FacePoint{0, .35};
-    const app::Stage stage = stage_of(scene);
+    scene::Scene scene = disc_scene(small::head(), 70, 1024);
+    scene.wounds[0].place = head::FacePoint{0, .35};
+    const stage::Stage stage = stage_of(scene);
     const Labelled day = labelled(stage, 0);
     const double mm_per_px = day.maps.distance_mm(512, 512) / day.focal_px();
     const double pictured = double(day.visible[0].bed_px) * mm_per_px * mm_per_px;
@@ -162,17 +162,17 @@ TEST_F(Labels, AnalyticSurfaceOfASphericalCapIsFound)
 {
     // A height field z = R - sqrt(R^2 - r^2) seen as the patch sees it: the cap over a disc of radius a has
     // the area 2 pi R (R - sqrt(R^2 - a^2)).
-    engine::Model model = small::wall({.6f, .4f, .3f});
+    head::Model model = small::wall({.6f, .4f, .3f});
     constexpr double radius = .2;
-    for (engine::Vertex& vertex : model.vertices) {
+    for (head::Vertex& vertex : model.vertices) {
         const glm::dvec2 at(vertex.position.x, vertex.position.y);
         vertex.position.z = float(std::sqrt(std::max(radius * radius - glm::dot(at, at), 0.0)) - radius);
         vertex.normal = glm::normalize(vertex.position + glm::vec3(0, 0, float(radius)));
     }
-    engine::update_bounds(model);
-    passes::Anchor anchor;
+    head::update_bounds(model);
+    head::Anchor anchor;
     anchor.half_width_m = .05;
-    const cv::Mat1f surface = passes::surface_under(model, 0, anchor, 256);
+    const cv::Mat1f surface = head::surface_under(model, 0, anchor, 256);
     double sum = 0;
     for (int y = 0; y < 256; ++y)
         for (int x = 0; x < 256; ++x)
@@ -185,9 +185,9 @@ TEST_F(Labels, AnalyticSurfaceOfASphericalCapIsFound)
 
 TEST_F(Labels, EveryTexelOfAWallIsCountedOnce)
 {
-    passes::Anchor anchor;
+    head::Anchor anchor;
     anchor.half_width_m = .03; // texel centres fall on the mesh's diagonals
-    const cv::Mat1f surface = passes::surface_under(small::wall({1, 1, 1}), 0, anchor, 64);
+    const cv::Mat1f surface = head::surface_under(small::wall({1, 1, 1}), 0, anchor, 64);
     double low = 0, high = 0;
     cv::minMaxLoc(surface, &low, &high);
     EXPECT_NEAR(low, 60.0 * 60 / 64 / 64, 1e-4);
@@ -196,11 +196,11 @@ TEST_F(Labels, EveryTexelOfAWallIsCountedOnce)
 
 TEST_F(Labels, TheCameraMatrixPutsKnownPointsOnTheirPixels)
 {
-    app::Scene scene = disc_scene(small::head(), 20);
-    scene.wounds[0].place = passes::FacePoint{.2, .1};
+    scene::Scene scene = disc_scene(small::head(), 20);
+    scene.wounds[0].place = head::FacePoint{.2, .1};
     scene.camera.from = {25, -10};
     scene.size = {400, 300};
-    const app::Stage stage = stage_of(scene);
+    const stage::Stage stage = stage_of(scene);
     const Labelled day = labelled(stage, 0);
     const nlohmann::json &pose = day.camera.at("camera_from_world"), &k = day.camera.at("intrinsics");
     glm::dmat3 rotation;
@@ -211,7 +211,7 @@ TEST_F(Labels, TheCameraMatrixPutsKnownPointsOnTheirPixels)
             rotation[column][row] = pose[row][column];
     }
     const glm::dvec2 focal(k.at("fx"), k.at("fy")), principal(k.at("cx"), k.at("cy"));
-    const glm::dvec3 centre = rotation * stage.anchors()[0].centre + translation;
+    const glm::dvec3 centre = rotation * stage.loaded().wounds[0].anchor.centre + translation;
     const glm::dvec2 at = focal * glm::dvec2(centre) / centre.z + principal;
     const cv::Moments moments = cv::moments(day.maps.wounds == 1, true);
     EXPECT_NEAR(at.x, moments.m10 / moments.m00 + .5, 1.5); // a pixel's middle is half a pixel further
@@ -224,17 +224,17 @@ TEST_F(Labels, TheCameraMatrixPutsKnownPointsOnTheirPixels)
     const glm::dvec3 seen((glm::dvec2(pixel.x + .5, pixel.y + .5) - principal) / focal * z, z);
     const glm::dvec3 point = glm::transpose(rotation) * (seen - translation);
     double nearest = 1;
-    for (const engine::Vertex& vertex : stage.head().vertices)
+    for (const head::Vertex& vertex : stage.loaded().head->model->vertices)
         nearest = std::min(nearest, glm::distance(glm::dvec3(vertex.position), point));
     EXPECT_LT(nearest, .004); // the mesh's spacing
 }
 
 TEST_F(Labels, SilhouetteIsThePicturesOwn)
 {
-    app::Scene scene = small::scene(small::head());
+    scene::Scene scene = small::scene(small::head());
     scene.lights.clear(); // the head is black before the studio's gray
     scene.shading.ambient = glm::vec3(0);
-    const app::Stage stage = stage_of(scene);
+    const stage::Stage stage = stage_of(scene);
     const Labelled day = labelled(stage, 4);
     cv::Mat1b gray;
     cv::cvtColor(day.picture, gray, cv::COLOR_RGBA2GRAY);
@@ -247,23 +247,21 @@ TEST_F(Labels, SilhouetteIsThePicturesOwn)
 
 TEST_F(Labels, RunOnlyWhenTheyAreRead)
 {
-    const app::Stage stage = stage_of(small::scene(small::head()));
-    engine::Executor executor(gpu::device(), gpu::shaders());
-    engine::Graph graph;
-    const app::Scene& scene = stage.scene();
-    graph.readback(
-        "picture",
-        stage.declare(graph, stage.wounds_on(3), stage.camera(), scene.shading, scene.size).picture);
-    EXPECT_EQ(executor.run(graph).pass("labels").state, engine::PassState::Culled);
+    const stage::Stage stage = stage_of(small::scene(small::head()));
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    graph::Graph graph;
+    const scene::Scene& scene = stage.scene();
+    graph.readback("picture", stage.declare(graph, {.day = 3, .tile = stage.scene().size}).images.picture);
+    EXPECT_EQ(executor.run(graph).pass("labels").state, graph::PassState::Culled);
 }
 
 TEST_F(Labels, SeveralWoundsAreToldApartAndRingsAppear)
 {
-    app::Scene scene = small::scene(small::head());
+    scene::Scene scene = small::scene(small::head());
     scene.wounds.resize(2);
     scene.wounds[1].place = std::string("forehead");
     scene.wounds[1].width_mm = 20;
-    const app::Stage stage = stage_of(scene);
+    const stage::Stage stage = stage_of(scene);
     const Labelled fresh = labelled(stage, 0), later = labelled(stage, 9);
     for (int i = 0; i < 2; ++i) {
         EXPECT_GT(fresh.visible[i].bed_px, 50);
@@ -278,32 +276,32 @@ TEST_F(Labels, SeveralWoundsAreToldApartAndRingsAppear)
 }
 
 /// The wall with a plate of another material before the right half of it.
-engine::Model wall_with_plate(engine::AlphaMode alpha)
+head::Model wall_with_plate(head::AlphaMode alpha)
 {
-    engine::Model model = small::wall({.6f, .4f, .3f});
+    head::Model model = small::wall({.6f, .4f, .3f});
     const auto first = std::uint32_t(model.vertices.size());
     for (const glm::vec2 at :
          {glm::vec2(0, -.05f), glm::vec2(.05f, -.05f), glm::vec2(.05f, .05f), glm::vec2(0, .05f)})
         model.vertices.push_back({{at.x, at.y, .03f}, {0, 0, 1}, {1, 0, 0, 1}, {0, 0}});
-    engine::Material plate;
+    head::Material plate;
     plate.name = "plate";
     plate.alpha = alpha;
-    plate.base_color_factor = glm::vec4(.2f, .2f, .2f, alpha == engine::AlphaMode::Opaque ? 1.0f : .5f);
+    plate.base_color_factor = glm::vec4(.2f, .2f, .2f, alpha == head::AlphaMode::Opaque ? 1.0f : .5f);
     model.materials.push_back(plate);
     model.primitives.push_back({std::uint32_t(model.indices.size()), 6, 1});
     for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u})
         model.indices.push_back(first + corner);
-    engine::update_bounds(model);
+    head::update_bounds(model);
     return model;
 }
 
 TEST_F(Labels, OpaquePartsHideAWoundAndBlendedOnesDoNot)
 {
-    const app::Stage solid = stage_of(disc_scene(wall_with_plate(engine::AlphaMode::Opaque), 40));
+    const stage::Stage solid = stage_of(disc_scene(wall_with_plate(head::AlphaMode::Opaque), 40));
     const Labelled hidden = labelled(solid, 0, before_the_wall());
     EXPECT_NEAR(hidden.visible[0].inside_mm2 / hidden.size[0].inside_mm2, .5, .03);
     EXPECT_GT(count(hidden.maps.kinds, shared::LABEL_OTHER), 1000);
-    const app::Stage thin = stage_of(disc_scene(wall_with_plate(engine::AlphaMode::Blend), 40));
+    const stage::Stage thin = stage_of(disc_scene(wall_with_plate(head::AlphaMode::Blend), 40));
     const Labelled open = labelled(thin, 0, before_the_wall());
     EXPECT_NEAR(open.visible[0].inside_mm2 / open.size[0].inside_mm2, 1, .01);
     EXPECT_EQ(count(open.maps.kinds, shared::LABEL_OTHER), 0);

@@ -7,9 +7,9 @@ namespace gpu {
 void expect_layout(std::string_view shader, std::string_view name, std::size_t size,
                    std::initializer_list<Member> members)
 {
-    const engine::Shader* found = shaders().find(shader);
+    const graph::Shader* found = shaders().find(shader);
     ASSERT_TRUE(found) << "there is no shader " << shader;
-    const engine::ShaderStruct* block = found->interface.find_struct(name);
+    const graph::ShaderStruct* block = found->interface.find_struct(name);
     ASSERT_TRUE(block) << shader << " has no struct " << name;
     EXPECT_EQ(block->size, size) << shader << ": " << name;
     ASSERT_EQ(block->members.size(), members.size()) << shader << ": " << name;

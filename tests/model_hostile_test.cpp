@@ -6,10 +6,10 @@
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 
-#include "engine/model.hpp"
+#include "base/input_error.hpp"
+#include "head/model.hpp"
 #include "tests/gltf_document.hpp"
 #include "tests/temporary_folder.hpp"
-#include "wound/input_error.hpp"
 
 namespace {
 
@@ -57,14 +57,14 @@ class HostileModel : public testing::Test
     {
         const auto path = folder_.with(name, bytes);
         try {
-            const engine::Model model = engine::load_model(path);
-            for (const engine::Vertex& vertex : model.vertices)
+            const head::Model model = head::load_model(path);
+            for (const head::Vertex& vertex : model.vertices)
                 for (float value : {vertex.position.x, vertex.normal.x, vertex.tangent.x, vertex.uv.x})
                     EXPECT_TRUE(std::isfinite(value));
             for (std::uint32_t index : model.indices)
                 EXPECT_LT(index, model.vertices.size());
             return "";
-        } catch (const cicatrix::InputError& error) {
+        } catch (const base::InputError& error) {
             const std::string message = error.what();
             EXPECT_EQ(message.rfind(path.string(), 0), 0u) << "does not begin with the file: " << message;
             EXPECT_NE(message.find("; "), std::string::npos) << "names no cure: " << message;
@@ -95,8 +95,8 @@ TEST_F(HostileModel, TheSoundFileIsAccepted)
 
 TEST_F(HostileModel, MissingEmptyAndForeignFilesAreRefused)
 {
-    EXPECT_THROW(engine::load_model(folder_ / "absent.glb"), cicatrix::InputError);
-    EXPECT_THROW(engine::load_model(folder_.path()), cicatrix::InputError);
+    EXPECT_THROW(head::load_model(folder_ / "absent.glb"), base::InputError);
+    EXPECT_THROW(head::load_model(folder_.path()), base::InputError);
     EXPECT_REFUSED(refusal(""), "empty");
     EXPECT_REFUSED(refusal("solid cube\nfacet normal"), "not a glTF file");
     EXPECT_REFUSED(refusal("{\"asset\":", "head.gltf"), "not a sound glTF file");

@@ -1,5 +1,5 @@
 // Heads from glTF files: what is read, computed and written.
-#include "engine/model.hpp"
+#include "head/model.hpp"
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -11,14 +11,14 @@
 
 namespace {
 
-using engine::Model;
+using head::Model;
 
 class ModelFile : public testing::Test
 {
   protected:
     Model load(const GltfDocument& document)
     {
-        return engine::load_model(folder_.with("head.glb", document.glb()));
+        return head::load_model(folder_.with("head.glb", document.glb()));
     }
     TemporaryFolder folder_;
 };
@@ -56,7 +56,7 @@ TEST_F(ModelFile, RoundTripKeepsEverything)
     model.primitives = {{0, 6, 0}, {6, 6, 1}};
     model.min = {0, 0, 0};
     model.max = {2, 1, 0.2f};
-    engine::Material skin, lash;
+    head::Material skin, lash;
     skin.name = "skin";
     skin.base_color = cv::Mat4b(8, 4, cv::Vec4b(200, 150, 100, 255));
     skin.base_color(3, 2) = {1, 2, 3, 255};
@@ -67,18 +67,18 @@ TEST_F(ModelFile, RoundTripKeepsEverything)
     lash.name = "eyelash";
     lash.base_color = cv::Mat4b(2, 2, cv::Vec4b(9, 8, 7, 60));
     lash.base_color_factor = {0.5f, 0.25f, 1.0f, 0.75f};
-    lash.alpha = engine::AlphaMode::Mask;
+    lash.alpha = head::AlphaMode::Mask;
     lash.alpha_cutoff = 0.25f;
     lash.double_sided = true;
     model.materials = {skin, lash};
 
-    engine::save_model(folder_ / "copy.glb", model);
-    const Model copy = engine::load_model(folder_ / "copy.glb");
+    head::save_model(folder_ / "copy.glb", model);
+    const Model copy = head::load_model(folder_ / "copy.glb");
 
     // Vertices are renumbered by first use; corners must be equal.
     ASSERT_EQ(copy.indices.size(), model.indices.size());
     for (std::size_t i = 0; i < model.indices.size(); ++i) {
-        const engine::Vertex &a = model.vertices[model.indices[i]], &b = copy.vertices[copy.indices[i]];
+        const head::Vertex &a = model.vertices[model.indices[i]], &b = copy.vertices[copy.indices[i]];
         EXPECT_EQ(a.position, b.position);
         EXPECT_TRUE(near(a.normal, b.normal));
         EXPECT_TRUE(near(glm::vec3(a.tangent), glm::vec3(b.tangent)));
@@ -99,7 +99,7 @@ TEST_F(ModelFile, RoundTripKeepsEverything)
     EXPECT_EQ(copy.materials[0].roughness, 0.375f);
     EXPECT_EQ(copy.materials[1].base_color(0, 0), cv::Vec4b(9, 8, 7, 60));
     EXPECT_EQ(copy.materials[1].base_color_factor, glm::vec4(0.5f, 0.25f, 1.0f, 0.75f));
-    EXPECT_EQ(copy.materials[1].alpha, engine::AlphaMode::Mask);
+    EXPECT_EQ(copy.materials[1].alpha, head::AlphaMode::Mask);
     EXPECT_EQ(copy.materials[1].alpha_cutoff, 0.25f);
     EXPECT_TRUE(copy.materials[1].double_sided);
 }
@@ -113,9 +113,9 @@ TEST_F(ModelFile, LargeOpaqueColoursAreSavedSmallAndHardlyChanged)
             picture(y, x) = {cv::saturate_cast<uchar>(160 + 60 * std::sin(x * 0.05)),
                              cv::saturate_cast<uchar>(120 + 50 * std::sin(y * 0.07)), 100, 255};
     model.materials[0].base_color = picture;
-    engine::save_model(folder_ / "copy.glb", model);
+    head::save_model(folder_ / "copy.glb", model);
     EXPECT_LT(std::filesystem::file_size(folder_ / "copy.glb"), 500'000u);
-    const Model copy = engine::load_model(folder_ / "copy.glb");
+    const Model copy = head::load_model(folder_ / "copy.glb");
     EXPECT_LE(cv::norm(copy.materials[0].base_color, picture, cv::NORM_INF), 6);
 }
 
@@ -127,7 +127,7 @@ TEST_F(ModelFile, MissingNormalsTangentsAndCoordinatesAreComputedAndNoted)
     EXPECT_TRUE(has_note(model, "texture coordinates"));
     ASSERT_EQ(model.materials.size(), 1u);
     EXPECT_TRUE(model.materials[0].base_color.empty());
-    for (const engine::Vertex& vertex : model.vertices) {
+    for (const head::Vertex& vertex : model.vertices) {
         EXPECT_TRUE(near(vertex.normal, {0, 0, 1}));
         EXPECT_NEAR(glm::length(glm::vec3(vertex.tangent)), 1.0f, 1e-5f);
         EXPECT_NEAR(glm::dot(vertex.normal, glm::vec3(vertex.tangent)), 0.0f, 1e-5f);
@@ -161,7 +161,7 @@ TEST_F(ModelFile, TangentsFollowU)
     GltfDocument document = GltfDocument::square();
     document.attribute("TEXCOORD_0", "VEC2", {0, 1, 1, 1, 1, 0, 0, 0}); // u right, v down
     const Model model = load(document);
-    for (const engine::Vertex& vertex : model.vertices)
+    for (const head::Vertex& vertex : model.vertices)
         EXPECT_TRUE(near(glm::vec3(vertex.tangent), {1, 0, 0}) && vertex.tangent.w == 1.0f);
 }
 
@@ -170,7 +170,7 @@ TEST_F(ModelFile, TangentsTurnWithTheTextureChart)
     GltfDocument document = GltfDocument::square();
     document.attribute("TEXCOORD_0", "VEC2", {1, 1, 1, 0, 0, 0, 0, 1}); // u up, to the left: a quarter turn
     const Model model = load(document);
-    for (const engine::Vertex& vertex : model.vertices)
+    for (const head::Vertex& vertex : model.vertices)
         EXPECT_TRUE(near(glm::vec3(vertex.tangent), {0, -1, 0}) && vertex.tangent.w == 1.0f);
 }
 
@@ -214,7 +214,7 @@ TEST_F(ModelFile, CylinderCoordinatesDoNotWrapBackWithinATriangle)
             EXPECT_LT(
                 std::abs(model.vertices[model.indices[i + c]].uv.x - model.vertices[model.indices[i]].uv.x),
                 0.1f);
-    for (const engine::Vertex& vertex : model.vertices)
+    for (const head::Vertex& vertex : model.vertices)
         EXPECT_EQ(vertex.tangent.w, 1.0f);
 }
 
@@ -225,7 +225,7 @@ TEST_F(ModelFile, UnusableNormalsAreReplaced)
     document.attribute("NORMAL", "VEC3", {0, 0, 1, nan, 0, 0, 0, 0, 0, 0, 0, 3});
     const Model model = load(document);
     EXPECT_TRUE(has_note(model, "normals"));
-    for (const engine::Vertex& vertex : model.vertices)
+    for (const head::Vertex& vertex : model.vertices)
         EXPECT_TRUE(near(vertex.normal, {0, 0, 1}));
 }
 
@@ -253,7 +253,7 @@ TEST_F(ModelFile, MirroringNodesKeepTheOutsideOutside)
     const Model model = load(document);
     for (std::size_t t = 0; t < 2; ++t)
         EXPECT_TRUE(near(face_normal(model, t), {0, 0, 1}));
-    for (const engine::Vertex& vertex : model.vertices) {
+    for (const head::Vertex& vertex : model.vertices) {
         EXPECT_TRUE(near(vertex.normal, {0, 0, 1}));
         EXPECT_EQ(vertex.tangent, glm::vec4(-1, 0, 0, -1));
     }
@@ -358,13 +358,13 @@ TEST_F(ModelFile, SizesNoHeadCanHaveAreScaledAndNoted)
     GltfDocument document = GltfDocument::square();
     Model metres = load(document);
     metres.max.y = 0.3f;
-    engine::normalise_size(metres);
+    head::normalise_size(metres);
     EXPECT_EQ(metres.max.y, 0.3f);
     EXPECT_FALSE(has_note(metres, "scaled"));
     for (double scale : {7.0, 1e-4}) {
         document.json["nodes"][0]["scale"] = {scale, scale, scale};
         Model model = load(document);
-        engine::normalise_size(model);
+        head::normalise_size(model);
         EXPECT_NEAR(model.max.y - model.min.y, 0.25f, 1e-6f);
         EXPECT_NEAR(model.vertices[model.indices[1]].position.x, 0.25f, 1e-6f);
         EXPECT_TRUE(has_note(model, "scaled to 0.25 m"));

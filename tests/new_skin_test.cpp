@@ -6,30 +6,28 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/bake.hpp"
-#include "apps/stage.hpp"
+#include "apps/bake/bake.hpp"
+#include "stage/stage.hpp"
 #include "tests/gpu.hpp"
 #include "tests/small_head.hpp"
 
 namespace {
 
-using namespace wound;
-
-const Color wall_color(.55, .36, .27);
+const base::Color wall_color(.55, .36, .27);
 
 /// A wound on a wall, seen straight on so that two pixels make one texel of the patch, with nothing but C of
 /// eq. (4), in white light from everywhere.
 struct Wall
 {
-    Wall() : stage(gpu::device(), scene(), app::Stage::prepare(scene()))
+    Wall() : stage(gpu::device(), stage::Stage::prepare(scene()))
     {
         shading.lambert = shading.translucency = shading.ward = shading.normal_map = shading.shadow = false;
         shading.ambient = glm::vec3(1);
     }
 
-    static app::Scene scene()
+    static scene::Scene scene()
     {
-        app::Scene scene = small::scene(
+        scene::Scene scene = small::scene(
             small::wall(glm::vec3(glm::dvec3(wall_color[0], wall_color[1], wall_color[2]))), 512);
         scene.wounds[0].place = glm::dvec3(0);
         scene.days = {0, 365};
@@ -44,15 +42,15 @@ struct Wall
 
     Picture draw(double day)
     {
-        const double half_width = stage.prepared()[0].patch.width_mm * .5e-3;
-        const passes::Camera camera{{0, 0, 1}, {0, 0, 0}, 2 * 180 / CV_PI * std::atan(.5 * half_width)};
-        engine::Graph graph;
-        const passes::FrameImages images =
-            stage.declare(graph, stage.wounds_on(day), camera, shading, stage.scene().size);
+        const double half_width = stage.loaded().wounds[0].prepared().patch.width_mm * .5e-3;
+        const head::Camera camera{{0, 0, 1}, {0, 0, 0}, 2 * 180 / CV_PI * std::atan(.5 * half_width)};
+        graph::Graph graph;
+        const passes::FrameImages images = stage.declare(
+            graph, {.day = day, .tile = stage.scene().size, .camera = camera, .shading = shading});
         graph.readback("picture", images.picture);
-        const engine::ReadbackId ids[] = {graph.readback("radiance", images.radiance),
-                                          graph.readback("state", images.wounds[0].state)};
-        const engine::FrameResult frame = executor.run(graph);
+        const graph::ReadbackId ids[] = {graph.readback("radiance", images.radiance),
+                                         graph.readback("state", images.wounds[0].state)};
+        const gpu::FrameResult frame = executor.run(graph);
         cv::Mat4f linear, state;
         frame.mat(ids[0]).convertTo(linear, CV_32F);
         frame.mat(ids[1]).convertTo(state, CV_32F);
@@ -70,13 +68,13 @@ struct Wall
         return picture;
     }
 
-    app::Stage stage;
-    passes::Shading shading = app::corrected_shading();
-    engine::Executor executor{gpu::device(), gpu::shaders()};
+    stage::Stage stage;
+    optics::Shading shading = optics::skin_shading();
+    gpu::Executor executor{gpu::device(), gpu::shaders()};
 };
 
 /// 100 log10(R/G), an erythema index: shade, which dims all channels alike, does not change it.
-double redness(const Color& color)
+double redness(const base::Color& color)
 {
     return 100 * std::log10(color[0] / color[1]);
 }
@@ -84,8 +82,11 @@ double redness(const Color& color)
 /// How much redder than skin the covered tissue is, straight from the optics.
 double optical_redness(double injury_mm, double day)
 {
-    const TissueDay tissue = app::tissue_on(skin(SkinTone::Light), shared::LUT_COVERED, day);
-    const auto color = [&](double depth) { return tissue_color(layers_at(tissue, depth), Rung::Calibrated); };
+    const optics::TissueDay tissue =
+        bake_command::tissue_on(optics::skin(optics::SkinTone::Light), shared::LUT_COVERED, day);
+    const auto color = [&](double depth) {
+        return optics::tissue_color(optics::layers_at(tissue, depth), optics::ReflectanceModel::Calibrated);
+    };
     return redness(color(injury_mm)) - redness(color(0));
 }
 
@@ -97,7 +98,7 @@ using NewSkin = gpu::Test;
 TEST_F(NewSkin, IsAsRedAsItsTissue)
 {
     Wall wall;
-    const double closed = closure_day(Healing{}.curve);
+    const double closed = wound::closure_day(wound::Healing{}.curve);
     double largest = 0, at_closure = 0, last = 1e9;
     for (const double months : {-.5, -.2, 0., 1., 3., 6., 11.}) {
         const double day = closed + 30.44 * months;
@@ -130,7 +131,7 @@ TEST_F(NewSkin, IsAsRedAsItsTissue)
             "{:5.1f} months after closure: {:5.2f} redder than skin, by optics {:5.2f}, worst pixel off by "
             "{:.2f}; {:.2f} of the excess at closure, {:.2f} of the blood's\n",
             months, sum / count, optics / count, worst, at_closure > 0 ? sum / count / at_closure : 1,
-            scar_after(std::max(months, 0.)).redness / scar_after(0).redness);
+            wound::scar_after(std::max(months, 0.)).redness / wound::scar_after(0).redness);
     }
     EXPECT_GT(at_closure, 5) << "a new scar is red";
     RecordProperty("largest_mean_difference", fmt::format("{:.3f}", largest));
@@ -139,8 +140,8 @@ TEST_F(NewSkin, IsAsRedAsItsTissue)
 TEST_F(NewSkin, ClosureIsNoJumpInAnyPixel)
 {
     Wall wall;
-    const double closed = closure_day(Healing{}.curve),
-                 last = day_below(Healing{}.curve, kSmallestScale * kSmallestScale);
+    const double closed = wound::closure_day(wound::Healing{}.curve),
+                 last = wound::day_below(wound::Healing{}.curve, wound::kSmallestScale * kSmallestScale);
     constexpr double step = 1;
     cv::Mat3f before;
     double around = 0; // largest change of a pixel from day to day in the last days that are open
@@ -162,7 +163,7 @@ TEST_F(NewSkin, ClosureIsNoJumpInTheMeanOfAnyZone)
 {
     constexpr double instant = 1e-3; // days
     Wall wall;
-    const double closed = closure_day(Healing{}.curve);
+    const double closed = wound::closure_day(wound::Healing{}.curve);
     const std::array days{closed - 1, closed - instant, closed + instant, closed + 1};
     std::array<cv::Mat3f, days.size()> seen;
     for (std::size_t i = 0; i < days.size(); ++i)

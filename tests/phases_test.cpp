@@ -1,10 +1,10 @@
-#include "wound/phases.hpp"
+#include "wound/healing/phases.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "wound/color.hpp"
+#include "base/color.hpp"
 
 namespace {
 
@@ -100,7 +100,7 @@ TEST(Phases, MeasureTheBedsLuminanceInsideTheMaskOnly)
     EXPECT_EQ(wound::bed_luminance(patch), 0);
     patch.mask(cv::Rect(2, 2, 3, 3)) = 1;
     patch.color(cv::Rect(2, 2, 3, 3)).setTo(cv::Scalar(.36, .04, .04));
-    EXPECT_NEAR(wound::bed_luminance(patch), wound::luminance(Vec3d(.36, .04, .04)), 1e-6);
+    EXPECT_NEAR(wound::bed_luminance(patch), base::luminance(Vec3d(.36, .04, .04)), 1e-6);
 }
 
 } // namespace

@@ -1,30 +1,29 @@
 // The schedule as people read it. No device.
-#include "engine/plan_text.hpp"
+#include "engine/graph/plan_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace {
 
-using namespace engine;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-Graph small_graph()
+graph::Graph small_graph()
 {
-    Graph graph;
-    const ImageDesc desc{64, 32, VK_FORMAT_R16G16B16A16_SFLOAT};
-    const ImageId albedo = graph.import("albedo", ExternalImage{desc, VK_NULL_HANDLE, 1});
-    const ImageId table = graph.image("table", desc), picture = graph.image("picture", desc);
-    const ImageId unused = graph.image("unused", desc);
-    ComputePass& lut = graph.compute("lut", "lut.comp");
+    graph::Graph graph;
+    const graph::ImageDesc desc{64, 32, VK_FORMAT_R16G16B16A16_SFLOAT};
+    const graph::ImageId albedo = graph.import("albedo", graph::ExternalImage{desc, VK_NULL_HANDLE, 1});
+    const graph::ImageId table = graph.image("table", desc), picture = graph.image("picture", desc);
+    const graph::ImageId unused = graph.image("unused", desc);
+    graph::ComputePass& lut = graph.compute("lut", "lut.comp");
     lut.store("table", table);
     lut.dispatch(64, 32);
-    ComputePass& idle = graph.compute("idle", "idle.comp");
+    graph::ComputePass& idle = graph.compute("idle", "idle.comp");
     idle.store("out", unused);
     idle.dispatch(64, 32);
-    RasterPass& forward = graph.raster("forward");
+    graph::RasterPass& forward = graph.raster("forward");
     forward.color(picture, {});
     forward.sample("table", table);
     forward.sample("albedo", albedo);
@@ -36,9 +35,9 @@ Graph small_graph()
 
 TEST(PlanText, NamesPassesImagesBarriersAndReasons)
 {
-    const Graph graph = small_graph();
-    const Plan first = schedule(graph, {});
-    const std::string text = plan_text(graph, first);
+    const graph::Graph graph = small_graph();
+    const graph::Plan first = graph::schedule(graph, {});
+    const std::string text = graph::plan_text(graph, first);
     EXPECT_THAT(text,
                 AllOf(HasSubstr("lut                      ran      first run"),
                       HasSubstr("idle                     culled   unused: nothing samples unused"),
@@ -46,14 +45,14 @@ TEST(PlanText, NamesPassesImagesBarriersAndReasons)
                       HasSubstr("barrier  table: compute -> vertex+fragment, general -> shader read"),
                       HasSubstr("at the end: barrier  picture: colour output -> copy"),
                       HasSubstr("64 x 32 RGBA16F"), HasSubstr("from lut to forward"), HasSubstr("imported")));
-    EXPECT_THAT(plan_text(graph, schedule(graph, first.memory)),
+    EXPECT_THAT(graph::plan_text(graph, graph::schedule(graph, first.memory)),
                 HasSubstr("lut                      skipped  unchanged"));
 }
 
 TEST(PlanText, DrawsAGraphvizGraphWithAnEdgeForEveryAccess)
 {
-    const Graph graph = small_graph();
-    const std::string dot = plan_dot(graph, schedule(graph, {}));
+    const graph::Graph graph = small_graph();
+    const std::string dot = graph::plan_dot(graph, graph::schedule(graph, {}));
     EXPECT_THAT(
         dot, AllOf(HasSubstr("digraph frame {"), HasSubstr("\"pass lut\" -> \"image table\" [label=barrier]"),
                    HasSubstr("\"image table\" -> \"pass forward\" [label=barrier]"),
@@ -64,12 +63,12 @@ TEST(PlanText, DrawsAGraphvizGraphWithAnEdgeForEveryAccess)
 
 TEST(PlanText, NamesCannotBreakOutOfTheGraphvizText)
 {
-    Graph graph;
+    graph::Graph graph;
     graph.readback("x", graph.image("a\"b\\", {8, 8, VK_FORMAT_R8G8B8A8_UNORM}));
-    ComputePass& pass = graph.compute("p", "p.comp");
-    pass.store("out", ImageId{0});
+    graph::ComputePass& pass = graph.compute("p", "p.comp");
+    pass.store("out", graph::ImageId{0});
     pass.dispatch(1, 1);
-    EXPECT_THAT(plan_dot(graph, schedule(graph, {})), HasSubstr("\"image a\\\"b\\\\\""));
+    EXPECT_THAT(graph::plan_dot(graph, graph::schedule(graph, {})), HasSubstr("\"image a\\\"b\\\\\""));
 }
 
 } // namespace

@@ -1,13 +1,13 @@
 // `cicatrix predict`: a drawn series whose course is known, and broken ones.
-#include "apps/predict.hpp"
+#include "apps/predict/predict.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/image_io.hpp"
+#include "base/image_io.hpp"
+#include "base/input_error.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/wound_photographs.hpp"
-#include "wound/input_error.hpp"
 
 namespace {
 
@@ -31,8 +31,8 @@ struct DrawnSeries
             const cv::Point center(150 + 4 * day, 120 - 3 * day);
             const auto drawn = photograph({300, 240}, center, ellipse(70 * scale, 45 * scale));
             const std::string name = "day" + std::to_string(day);
-            engine::write_png(folder / (name + ".png"), drawn.srgb);
-            engine::write_png(folder / (name + "_mask.png"), drawn.mask);
+            base::write_png(folder / (name + ".png"), drawn.srgb);
+            base::write_png(folder / (name + "_mask.png"), drawn.mask);
             if (day != 3)
                 areas += std::to_string(day) + "," + std::to_string(40 * ratio) + "\n";
             series["days"].push_back({{"day", day}, {"photo", name + ".png"}});
@@ -44,15 +44,15 @@ struct DrawnSeries
         folder.with("areas.csv", areas);
     }
 
-    app::Prediction predict() const
+    predict_command::Prediction predict() const
     {
-        return app::predict(folder.with("series.json", series.dump()), folder.path());
+        return predict_command::predict(folder.with("series.json", series.dump()), folder.path());
     }
     std::string refusal() const
     {
         try {
             predict();
-        } catch (const cicatrix::InputError& error) {
+        } catch (const base::InputError& error) {
             return error.what();
         }
         return "accepted";
@@ -61,11 +61,11 @@ struct DrawnSeries
 
 TEST(Predict, AWoundThatHealsAsMeasuredIsFoundAsPredicted)
 {
-    const app::Prediction prediction = DrawnSeries().predict();
+    const predict_command::Prediction prediction = DrawnSeries().predict();
     ASSERT_EQ(prediction.days.size(), 6U);
     EXPECT_FALSE(prediction.days[0].agreement) << "it is what the others are predicted from";
     EXPECT_EQ(prediction.days[0].observed_ratio, 1);
-    for (const app::PredictedDay& day : prediction.days) {
+    for (const predict_command::PredictedDay& day : prediction.days) {
         const double ratio = std::exp(-kRate * day.day);
         EXPECT_NEAR(day.curve_ratio, ratio, .005);
         EXPECT_NEAR(day.observed_ratio, ratio, .04) << day.day;
@@ -76,7 +76,7 @@ TEST(Predict, AWoundThatHealsAsMeasuredIsFoundAsPredicted)
             EXPECT_LT(day.agreement->border_distance_px, 2) << day.day;
         }
     }
-    EXPECT_THAT(app::to_markdown(prediction), HasSubstr("\n| 3 | - | 0.55 | 0.5"));
+    EXPECT_THAT(predict_command::to_markdown(prediction), HasSubstr("\n| 3 | - | 0.55 | 0.5"));
 }
 
 TEST(Predict, AWoundThatIsAlreadyShrunkenAgreesLess)
@@ -88,7 +88,7 @@ TEST(Predict, AWoundThatIsAlreadyShrunkenAgreesLess)
             day["mask"] = "day" + std::to_string(number + 2) + "_mask.png";
             day.erase("segmentation");
         }
-    const app::Prediction prediction = drawn.predict();
+    const predict_command::Prediction prediction = drawn.predict();
     EXPECT_NEAR(prediction.days[2].agreement->intersection_over_union, std::exp(-2 * kRate), .04);
     EXPECT_NEAR(prediction.days[2].agreement->area_ratio, std::exp(2 * kRate), .06);
 }
@@ -96,13 +96,14 @@ TEST(Predict, AWoundThatIsAlreadyShrunkenAgreesLess)
 TEST(Predict, ADayWithoutAVisibleWoundIsTold)
 {
     DrawnSeries drawn;
-    engine::write_png(drawn.folder / "day3.png",
-                      photograph({300, 240}, {0, 0}, [](double, double) { return 2.; }).srgb);
-    const app::Prediction prediction = drawn.predict();
+    base::write_png(drawn.folder / "day3.png",
+                    photograph({300, 240}, {0, 0}, [](double, double) { return 2.; }).srgb);
+    const predict_command::Prediction prediction = drawn.predict();
     EXPECT_THAT(prediction.days[3].not_found, HasSubstr("day3.png: no wound found"));
     EXPECT_FALSE(prediction.days[3].agreement);
-    EXPECT_THAT(app::to_markdown(prediction), HasSubstr("\n| 3 | - | 0.55 | not found | - | - |\n"));
-    const nlohmann::json json = app::to_json(prediction);
+    EXPECT_THAT(predict_command::to_markdown(prediction),
+                HasSubstr("\n| 3 | - | 0.55 | not found | - | - |\n"));
+    const nlohmann::json json = predict_command::to_json(prediction);
     EXPECT_TRUE(json["days"][3]["segmented_ratio"].is_null());
     EXPECT_GT(json["days"][4]["intersection_over_union"], .9);
     EXPECT_EQ(json["fit"]["n"], 5);
@@ -110,7 +111,7 @@ TEST(Predict, ADayWithoutAVisibleWoundIsTold)
 
 TEST(Predict, PictureHoldsBothOutlines)
 {
-    const cv::Mat3b picture = app::draw_prediction(DrawnSeries().predict());
+    const cv::Mat3b picture = predict_command::draw_prediction(DrawnSeries().predict());
     const auto count = [](const cv::Mat3b& part, cv::Scalar color) {
         cv::Mat1b found;
         cv::inRange(part, color, color, found);
@@ -147,7 +148,7 @@ TEST(Predict, BrokenSeriesAreRefused)
 TEST(Predict, AFirstDayWithoutAWoundIsRefused)
 {
     DrawnSeries drawn;
-    engine::write_png(drawn.folder / "day0.png", cv::Mat3b(240, 300, cv::Vec3b(200, 160, 140)));
+    base::write_png(drawn.folder / "day0.png", cv::Mat3b(240, 300, cv::Vec3b(200, 160, 140)));
     drawn.series["days"][0].erase("mask");
     EXPECT_THAT(drawn.refusal(), HasSubstr("day0.png: no wound found"));
 }

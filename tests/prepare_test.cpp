@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "base/color.hpp"
+#include "base/input_error.hpp"
 #include "tests/wound_photographs.hpp"
-#include "wound/color.hpp"
 #include "wound/contour.hpp"
-#include "wound/healthy_skin.hpp"
-#include "wound/input_error.hpp"
+#include "wound/photo/healthy_skin.hpp"
 
 namespace {
 
@@ -118,7 +118,7 @@ TEST(Prepare, SeveralComponentsBecomeSeveralWoundsAtOneScale)
     EXPECT_NEAR(wounds[0].patch.width_mm / wounds[0].photo_side,
                 wounds[1].patch.width_mm / wounds[1].photo_side, 1e-9);
     photo.mask.setTo(0);
-    EXPECT_THROW(wound::prepare_all(photo, small_patch()), cicatrix::InputError);
+    EXPECT_THROW(wound::prepare_all(photo, small_patch()), base::InputError);
 }
 
 TEST(Prepare, AOnePixelWoundAndOneThatNearlyFillsThePhotographWork)
@@ -189,8 +189,8 @@ TEST(Prepare, AWoundThatFillsThePhotographEndsAtItsEdgeInAverageSkin)
         EXPECT_NEAR(std::max(std::abs(p.x) / half, std::abs(p.y) / half_height), 1, .03) << p;
     EXPECT_FLOAT_EQ(wound.patch.opacity(128, 128), 1);
     EXPECT_EQ(wound.patch.opacity(128, 40), 0);
-    const wound::Lab beyond = wound::lab_from_linear(wound::Color(wound.patch.color(128, 40)));
-    EXPECT_LT(wound::delta_e2000(beyond, wound::kAverageSkin), .1);
+    const base::Lab beyond = base::lab_from_linear(base::Color(wound.patch.color(128, 40)));
+    EXPECT_LT(base::delta_e2000(beyond, wound::kAverageSkin), .1);
     EXPECT_GT(wound.patch.depth_mm(128, 128), .5) << "red is deep beside average skin";
     EXPECT_TRUE(cv::checkRange(wound.patch.color) && cv::checkRange(wound.patch.depth_mm));
     for (double r : {1.4, .6, .2, .05, .01}) {
@@ -211,7 +211,7 @@ TEST(Prepare, AWoundThatFillsAPictureOnBlackEndsWithThePicture)
     EXPECT_FALSE(wound.patch.shows_skin);
     EXPECT_EQ(cv::countNonZero(wound.photo_mask != disk), 0);
     photo.srgb.setTo(cv::Scalar::all(0));
-    EXPECT_THROW(wound::prepare(photo, small_patch()), cicatrix::InputError);
+    EXPECT_THROW(wound::prepare(photo, small_patch()), base::InputError);
 }
 
 TEST(Prepare, WoundsThatFillThePhotographTogetherAreNoSkinForEachOther)
@@ -263,7 +263,7 @@ TEST(Prepare, TheLastOfTheBedFadesAfterClosure)
     EXPECT_EQ(wound::wound_at(wound, face, closed - 1).bed_presence, 1);
     double last = 1, steepest = 0;
     for (double day = closed - 1; day < closed + 20; day += 1) {
-        const auto today = wound::wound_at(wound, face, day, wound::WarpRung::radial);
+        const auto today = wound::wound_at(wound, face, day, wound::WarpModel::radial);
         steepest = std::max(steepest, last - today.bed_presence);
         EXPECT_LE(today.bed_presence, last);
         last = today.bed_presence;
@@ -304,7 +304,7 @@ TEST(Prepare, NoNumberOfADayJumpsAtClosure)
         healing.model = model;
         const double closed = wound::closure_day(healing.curve), instant = 1e-6;
         const auto at = [&](double day) {
-            return numbers_of(wound::wound_at(wound, healing, day, wound::WarpRung::radial));
+            return numbers_of(wound::wound_at(wound, healing, day, wound::WarpModel::radial));
         };
         const auto eve = at(closed - 1), before = at(closed - instant), after = at(closed + instant),
                    morrow = at(closed + 1);
@@ -322,8 +322,8 @@ TEST(Prepare, BadWidthsAndEmptyPhotographsAreRefused)
     auto preparation = small_patch();
     preparation.width_mm = std::nan("");
     const auto photo = photograph({64, 64}, {32, 32}, bean);
-    EXPECT_THROW(wound::prepare(photo, preparation), cicatrix::InputError);
-    EXPECT_THROW(wound::prepare({}, small_patch()), cicatrix::InputError);
+    EXPECT_THROW(wound::prepare(photo, preparation), base::InputError);
+    EXPECT_THROW(wound::prepare({}, small_patch()), base::InputError);
 }
 
 } // namespace

@@ -9,8 +9,8 @@
 #include <set>
 #include <sstream>
 
-#include "apps/scene.hpp"
-#include "engine/image_io.hpp"
+#include "base/image_io.hpp"
+#include "scene/scene.hpp"
 #include "tests/process.hpp"
 #include "tests/small_head.hpp"
 #include "tests/temporary_folder.hpp"
@@ -62,7 +62,7 @@ class Program : public testing::Test
     template <typename Picture>
     std::string with_png(std::string_view name, const Picture& picture) const
     {
-        engine::write_png(folder_ / name, picture);
+        base::write_png(folder_ / name, picture);
         return file(name);
     }
 
@@ -106,10 +106,10 @@ TEST_F(Program, CapturesAHealingWound)
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_THAT(files_in(file("out")), UnorderedElementsAre("day_000.png", "day_005.png", "day_005_2.png",
                                                             "healing.png", "capture.json"));
-    EXPECT_EQ(engine::read_rgb(file("out/day_000.png")).size(), cv::Size(160, 120));
+    EXPECT_EQ(base::read_rgb(file("out/day_000.png")).size(), cv::Size(160, 120));
     EXPECT_EQ(bytes_of(file("out/day_005.png")), bytes_of(file("out/day_005_2.png")));
     EXPECT_NE(bytes_of(file("out/day_000.png")), bytes_of(file("out/day_005.png")));
-    EXPECT_GT(engine::read_rgb(file("out/healing.png")).total(), 3u * 160 * 120);
+    EXPECT_GT(base::read_rgb(file("out/healing.png")).total(), 3u * 160 * 120);
 
     const json record = json::parse(bytes_of(file("out/capture.json")));
     EXPECT_NE(record.at("device"), "");
@@ -138,7 +138,7 @@ TEST_F(Program, CapturesAHealingWound)
     EXPECT_THAT(skipped, UnorderedElementsAre("wound_texture", "wound_relief", "reflectance_lut", "shadow"));
 
     const std::filesystem::path scene = folder_.with("recorded.json", record.at("scene").dump());
-    EXPECT_EQ(app::to_json(app::read_scene(scene)), record.at("scene"));
+    EXPECT_EQ(predict_command::to_json(scene::read_scene(scene)), record.at("scene"));
 }
 
 TEST_F(Program, CapturesInPublishedModeWithAPhotographAndItsMask)
@@ -402,9 +402,9 @@ TEST_F(Program, SaysSoWithoutAVulkanDevice)
 
 TEST_F(Program, TakesAHeadWithoutNormalsUvsOrTexturesAndSaysSo)
 {
-    const engine::Model model = small::head();
+    const head::Model model = small::head();
     std::string bytes;
-    for (const engine::Vertex& vertex : model.vertices)
+    for (const head::Vertex& vertex : model.vertices)
         bytes.append(reinterpret_cast<const char*>(&vertex.position), sizeof vertex.position);
     const std::size_t positions = bytes.size(), indices = model.indices.size() * sizeof(std::uint32_t);
     bytes.append(reinterpret_cast<const char*>(model.indices.data()), indices);

@@ -1,4 +1,4 @@
-// Random layered tissue over the whole range that the rungs promise to bear, and the corners of that range.
+// Random layered tissue over the whole range that the models promise to bear, and the corners of that range.
 #pragma once
 #include <cmath>
 #include <fmt/format.h>
@@ -7,20 +7,22 @@
 #include <string>
 #include <vector>
 
-#include "wound/reflectance.hpp"
+#include "wound/optics/reflectance.hpp"
 
 namespace random_tissue {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
-inline constexpr wound::Rung two_streams[] = {wound::Rung::TwoStream, wound::Rung::TwoStreamPaper,
-                                              wound::Rung::Calibrated};
-inline constexpr wound::Rung bounded[] = {wound::Rung::TwoStream, wound::Rung::TwoStreamPaper,
-                                          wound::Rung::Calibrated, wound::Rung::Clamped,
-                                          wound::Rung::Exponential};
+inline constexpr optics::ReflectanceModel two_streams[] = {optics::ReflectanceModel::TwoStream,
+                                                           optics::ReflectanceModel::TwoStreamPaper,
+                                                           optics::ReflectanceModel::Calibrated};
+inline constexpr optics::ReflectanceModel bounded[] = {
+    optics::ReflectanceModel::TwoStream, optics::ReflectanceModel::TwoStreamPaper,
+    optics::ReflectanceModel::Calibrated, optics::ReflectanceModel::Clamped,
+    optics::ReflectanceModel::Exponential};
 
 /// What a layer can lack; none may make a step where it vanishes.
-inline constexpr double wound::LayerOptics::*coefficients[] = {
-    &wound::LayerOptics::sigma_a, &wound::LayerOptics::sigma_s_reduced, &wound::LayerOptics::thickness_mm};
+inline constexpr double optics::LayerOptics::*coefficients[] = {
+    &optics::LayerOptics::sigma_a, &optics::LayerOptics::sigma_s_reduced, &optics::LayerOptics::thickness_mm};
 
 /// All numbers are floats, so that single and double precision see the same tissue.
 class Draw
@@ -42,29 +44,29 @@ class Draw
         return static_cast<float>(std::exp(uniform(std::log(1e-9), std::log(high))));
     }
     double index() { return integer(0, 3) == 0 ? integer(1, 3) : uniform(1, 3); }
-    wound::LayerOptics layer()
+    optics::LayerOptics layer()
     {
         const double g = integer(0, 4) == 0 ? integer(-1, 1) : uniform(-1, 1);
         const double thickness = integer(0, 9) == 0 ? infinity : coefficient(1e9);
         return {coefficient(1e6), coefficient(1e6), g, index(), thickness};
     }
-    wound::Stack stack(int most_layers = 5)
+    optics::Stack stack(int most_layers = 5)
     {
-        wound::Stack result{.layers = {}, .n_above = index(), .n_below = index()};
+        optics::Stack result{.layers = {}, .n_above = index(), .n_below = index()};
         for (int i = integer(1, most_layers); i > 0; --i)
             result.layers.push_back(layer());
         return result;
     }
-    std::size_t place(const wound::Stack& stack)
+    std::size_t place(const optics::Stack& stack)
     {
         return static_cast<std::size_t>(integer(0, static_cast<int>(stack.layers.size()) - 1));
     }
     /// The stack with one layer cut at a random depth.
-    wound::Stack split(wound::Stack stack)
+    optics::Stack split(optics::Stack stack)
     {
         const auto at = stack.layers.begin() + static_cast<std::ptrdiff_t>(place(stack));
         const double part = uniform(1e-3, 1 - 1e-3);
-        wound::LayerOptics upper = *at;
+        optics::LayerOptics upper = *at;
         upper.thickness_mm *= part;
         at->thickness_mm *= 1 - part;
         stack.layers.insert(at, upper);
@@ -72,10 +74,10 @@ class Draw
     }
     /// The stack with a layer without thickness above one of its own; of the same index, since any other
     /// would make a boundary.
-    wound::Stack with_empty_layer(wound::Stack stack)
+    optics::Stack with_empty_layer(optics::Stack stack)
     {
         const std::size_t at = place(stack);
-        wound::LayerOptics empty = layer();
+        optics::LayerOptics empty = layer();
         empty.n = stack.layers[at].n;
         empty.thickness_mm = 0;
         stack.layers.insert(stack.layers.begin() + static_cast<std::ptrdiff_t>(at), empty);
@@ -88,9 +90,9 @@ class Draw
 
 /// One and two layers between media of every kind, with everything at an end of its range, at the least
 /// number above zero (`tiny`), or just beside a special case.
-inline std::vector<wound::Stack> corners(double tiny)
+inline std::vector<optics::Stack> corners(double tiny)
 {
-    std::vector<wound::Stack> result;
+    std::vector<optics::Stack> result;
     const double n_close = static_cast<float>(1 + 2e-6), n_skin = 1.4f;
     for (double a : {0., tiny, 1e6})
         for (double s : {0., tiny, 1e6})
@@ -99,24 +101,24 @@ inline std::vector<wound::Stack> corners(double tiny)
                     for (double d : {0., tiny, 1e9, infinity})
                         for (double above : {1., n_skin, 3.})
                             for (double below : {1., n_close, 3.}) {
-                                const wound::LayerOptics first{a, s, g, n, d}, second{s, a, g, n_skin, d};
+                                const optics::LayerOptics first{a, s, g, n, d}, second{s, a, g, n_skin, d};
                                 result.push_back({{first}, above, below});
                                 result.push_back({{first, second}, above, below});
                             }
     return result;
 }
 
-inline wound::Stack without_absorption(wound::Stack stack)
+inline optics::Stack without_absorption(optics::Stack stack)
 {
-    for (wound::LayerOptics& layer : stack.layers)
+    for (optics::LayerOptics& layer : stack.layers)
         layer.sigma_a = 0;
     return stack;
 }
 
-inline std::string text(const wound::Stack& stack)
+inline std::string text(const optics::Stack& stack)
 {
     std::string result = fmt::format("above {}", stack.n_above);
-    for (const wound::LayerOptics& layer : stack.layers)
+    for (const optics::LayerOptics& layer : stack.layers)
         result += fmt::format(" | a {} s {} g {} n {} d {}", layer.sigma_a, layer.sigma_s_reduced, layer.g,
                               layer.n, layer.thickness_mm);
     return result + fmt::format(" | below {}", stack.n_below);

@@ -1,25 +1,23 @@
 // Raster passes on a device: meshes, facing, depth, blending, multisampling. Every test runs under
 // validation.
-#include "engine/executor.hpp"
-#include "engine/mesh_buffer.hpp"
+#include "engine/gpu/executor.hpp"
+#include "engine/gpu/mesh_buffer.hpp"
 #include "tests/gpu.hpp"
 
 #include <glm/glm.hpp>
 
 namespace {
 
-using namespace engine;
-
 // --------------------------------------------------------------------------------
 
 /// A triangle over the lower left half of the picture, counter-clockwise as one sees it.
-MeshBuffer lower_left_triangle()
+gpu::MeshBuffer lower_left_triangle()
 {
-    std::vector<Vertex> vertices(3);
+    std::vector<head::Vertex> vertices(3);
     vertices[0] = {.position = {-1, -1, 0}, .normal = {}, .tangent = {}, .uv = {0, 0}}; // top left: y is down
     vertices[1] = {.position = {-1, 1, 0}, .normal = {}, .tangent = {}, .uv = {0, 1}};
     vertices[2] = {.position = {1, 1, 0}, .normal = {}, .tangent = {}, .uv = {1, 1}};
-    return MeshBuffer(gpu::device(), vertices, std::vector<std::uint32_t>{0, 1, 2}, "triangle");
+    return gpu::MeshBuffer(gpu::device(), vertices, std::vector<std::uint32_t>{0, 1, 2}, "triangle");
 }
 
 struct MeshScene
@@ -27,17 +25,17 @@ struct MeshScene
     explicit MeshScene(std::uint32_t samples)
     {
         const VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
-        const ImageId color = graph.image("color", {16, 16, format, samples});
+        const graph::ImageId color = graph.image("color", {16, 16, format, samples});
         picture = samples > 1 ? graph.image("resolved", {16, 16, format}) : color;
         pass = &graph.raster("mesh");
-        pass->color(color, {0, 0, 0, 1}, samples > 1 ? picture : ImageId{});
+        pass->color(color, {0, 0, 0, 1}, samples > 1 ? picture : graph::ImageId{});
         pass->depth(graph.image("depth", {16, 16, VK_FORMAT_D32_SFLOAT, samples}));
         graph.readback("picture", picture);
     }
 
-    Draw& draw(const MeshBuffer& mesh, float depth, glm::vec4 paint)
+    graph::Draw& draw(const gpu::MeshBuffer& mesh, float depth, glm::vec4 paint)
     {
-        Draw& added = pass->draw("test_mesh");
+        graph::Draw& added = pass->draw("test_mesh");
         added.mesh = &mesh;
         added.uniform("place", depth);
         added.uniform("Paint", paint);
@@ -46,31 +44,31 @@ struct MeshScene
 
     cv::Mat4b run() const
     {
-        Executor executor(gpu::device(), gpu::shaders());
-        return executor.run(graph).mat(ReadbackId{0}).clone();
+        gpu::Executor executor(gpu::device(), gpu::shaders());
+        return executor.run(graph).mat(graph::ReadbackId{0}).clone();
     }
 
-    Graph graph;
-    ImageId picture;
-    RasterPass* pass = nullptr;
+    graph::Graph graph;
+    graph::ImageId picture;
+    graph::RasterPass* pass = nullptr;
 };
 
 using RasterTest = gpu::Test;
 
 TEST_F(RasterTest, DrawsCounterClockwiseTrianglesAndCullsTheirBacks)
 {
-    const MeshBuffer front = lower_left_triangle();
+    const gpu::MeshBuffer front = lower_left_triangle();
     MeshScene scene(1);
     scene.draw(front, 0.5f, glm::vec4(1, 0, 0, 1));
     const cv::Mat4b picture = scene.run();
     EXPECT_EQ(picture(15, 0), cv::Vec4b(255, 0, 0, 255));
     EXPECT_EQ(picture(0, 15), cv::Vec4b(0, 0, 0, 255));
 
-    std::vector<Vertex> turned(3);
+    std::vector<head::Vertex> turned(3);
     turned[0].position = {-1, -1, 0};
     turned[1].position = {1, 1, 0};
     turned[2].position = {-1, 1, 0};
-    const MeshBuffer back(gpu::device(), turned, std::vector<std::uint32_t>{0, 1, 2}, "back");
+    const gpu::MeshBuffer back(gpu::device(), turned, std::vector<std::uint32_t>{0, 1, 2}, "back");
     MeshScene culled(1), shown(1);
     culled.draw(back, 0.5f, glm::vec4(1));
     shown.draw(back, 0.5f, glm::vec4(1)).cull_back_faces = false;
@@ -80,10 +78,10 @@ TEST_F(RasterTest, DrawsCounterClockwiseTrianglesAndCullsTheirBacks)
 
 TEST_F(RasterTest, TheNearerSurfaceWinsUnlessDepthIsNotTested)
 {
-    const MeshBuffer mesh = lower_left_triangle();
+    const gpu::MeshBuffer mesh = lower_left_triangle();
     MeshScene scene(1);
     scene.draw(mesh, 0.2f, glm::vec4(1, 0, 0, 1));
-    Draw& far = scene.draw(mesh, 0.7f, glm::vec4(0, 1, 0, 1));
+    graph::Draw& far = scene.draw(mesh, 0.7f, glm::vec4(0, 1, 0, 1));
     EXPECT_EQ(scene.run()(15, 0), cv::Vec4b(255, 0, 0, 255));
     far.depth_test = false;
     EXPECT_EQ(scene.run()(15, 0), cv::Vec4b(0, 255, 0, 255));
@@ -91,19 +89,19 @@ TEST_F(RasterTest, TheNearerSurfaceWinsUnlessDepthIsNotTested)
 
 TEST_F(RasterTest, DepthCanBeSampledAndReadBack)
 {
-    const MeshBuffer mesh = lower_left_triangle();
+    const gpu::MeshBuffer mesh = lower_left_triangle();
     MeshScene scene(1);
     scene.draw(mesh, 0.25f, glm::vec4(1));
-    const ImageId shown = scene.graph.image("shown", {16, 16, VK_FORMAT_R32_SFLOAT});
-    RasterPass& show = scene.graph.raster("show");
+    const graph::ImageId shown = scene.graph.image("shown", {16, 16, VK_FORMAT_R32_SFLOAT});
+    graph::RasterPass& show = scene.graph.raster("show");
     show.color(shown, {});
-    show.sample("source", scene.pass->depth_image, Sampler::NearestClamp);
+    show.sample("source", scene.pass->depth_image, graph::Sampler::NearestClamp);
     show.uniform("Tint", glm::vec4(2.0f));
     show.draw("test_quad").index_count = 3;
-    const ReadbackId depth = scene.graph.readback("depth", scene.pass->depth_image);
-    const ReadbackId doubled = scene.graph.readback("doubled", shown);
-    Executor executor(gpu::device(), gpu::shaders());
-    const FrameResult result = executor.run(scene.graph);
+    const graph::ReadbackId depth = scene.graph.readback("depth", scene.pass->depth_image);
+    const graph::ReadbackId doubled = scene.graph.readback("doubled", shown);
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    const gpu::FrameResult result = executor.run(scene.graph);
     EXPECT_EQ(result.mat(depth).at<float>(15, 0), 0.25f);
     EXPECT_EQ(result.mat(depth).at<float>(0, 15), 1.0f);
     EXPECT_EQ(result.mat(doubled).at<float>(15, 0), 0.5f);
@@ -111,7 +109,7 @@ TEST_F(RasterTest, DepthCanBeSampledAndReadBack)
 
 TEST_F(RasterTest, BlendsSourceAlphaOver)
 {
-    const MeshBuffer mesh = lower_left_triangle();
+    const gpu::MeshBuffer mesh = lower_left_triangle();
     MeshScene scene(1);
     scene.draw(mesh, 0.5f, glm::vec4(1, 0, 0, 1));
     scene.draw(mesh, 0.5f, glm::vec4(0, 1, 0, 0.2f)).blend = true;
@@ -120,7 +118,7 @@ TEST_F(RasterTest, BlendsSourceAlphaOver)
 
 TEST_F(RasterTest, GivesTheShaderTheVertexAttributesItNames)
 {
-    const MeshBuffer mesh = lower_left_triangle();
+    const gpu::MeshBuffer mesh = lower_left_triangle();
     MeshScene scene(1);
     scene.draw(mesh, 0.5f, glm::vec4(0)).constant("show_uv", true);
     const cv::Vec4b texel = scene.run()(12, 4);
@@ -130,7 +128,7 @@ TEST_F(RasterTest, GivesTheShaderTheVertexAttributesItNames)
 
 TEST_F(RasterTest, MultisamplingSmoothsTheEdgeAndOnlyTheEdge)
 {
-    const MeshBuffer mesh = lower_left_triangle();
+    const gpu::MeshBuffer mesh = lower_left_triangle();
     MeshScene scene(4);
     scene.draw(mesh, 0.5f, glm::vec4(1));
     const cv::Mat4b picture = scene.run();
@@ -143,10 +141,10 @@ TEST_F(RasterTest, MultisamplingSmoothsTheEdgeAndOnlyTheEdge)
 TEST_F(RasterTest, TwoExecutorsGiveTheSameBits)
 {
     const auto bytes = [] {
-        const MeshBuffer mesh = lower_left_triangle();
+        const gpu::MeshBuffer mesh = lower_left_triangle();
         MeshScene scene(4);
         scene.draw(mesh, 0.5f, glm::vec4(0)).constant("show_uv", true);
-        Executor executor(gpu::device(), gpu::shaders());
+        gpu::Executor executor(gpu::device(), gpu::shaders());
         return executor.run(scene.graph).readbacks[0].bytes;
     };
     EXPECT_EQ(bytes(), bytes());

@@ -6,22 +6,22 @@
 #include "tests/gpu.hpp"
 #include "tests/random_tissue.hpp"
 
-using namespace wound;
 using namespace random_tissue;
 
 namespace {
 
-std::vector<Response> evaluate(const std::vector<Stack>& stacks, Rung rung)
+std::vector<optics::Response> evaluate(const std::vector<optics::Stack>& stacks,
+                                       optics::ReflectanceModel level)
 {
     std::vector<shared::ReflectanceCase> cases;
     std::vector<shared::ReflectanceLayer> layers;
-    for (const Stack& stack : stacks) {
-        cases.push_back({.model = static_cast<shared::uint>(rung),
+    for (const optics::Stack& stack : stacks) {
+        cases.push_back({.model = static_cast<shared::uint>(level),
                          .first = static_cast<shared::uint>(layers.size()),
                          .count = static_cast<shared::uint>(stack.layers.size()),
                          .n_above = static_cast<float>(stack.n_above),
                          .n_below = static_cast<float>(stack.n_below)});
-        for (const LayerOptics& layer : stack.layers)
+        for (const optics::LayerOptics& layer : stack.layers)
             layers.push_back({.sigma_a = static_cast<float>(layer.sigma_a),
                               .sigma_s_reduced = static_cast<float>(layer.sigma_s_reduced),
                               .g = static_cast<float>(layer.g),
@@ -30,18 +30,18 @@ std::vector<Response> evaluate(const std::vector<Stack>& stacks, Rung rung)
     }
     constexpr std::uint32_t width = 1024;
     const auto height = static_cast<std::uint32_t>((cases.size() + width - 1) / width);
-    engine::Graph graph;
-    const engine::ImageId results = graph.image("results", {width, height, VK_FORMAT_R32G32B32A32_SFLOAT});
-    engine::ComputePass& pass = graph.compute("reflectance test", "reflectance_test.comp");
+    graph::Graph graph;
+    const graph::ImageId results = graph.image("results", {width, height, VK_FORMAT_R32G32B32A32_SFLOAT});
+    graph::ComputePass& pass = graph.compute("reflectance test", "reflectance_test.comp");
     pass.buffer<shared::ReflectanceCase>("CaseBlock", cases);
     pass.buffer<shared::ReflectanceLayer>("LayerBlock", layers);
     pass.store("results", results);
     pass.dispatch(width, height);
-    const engine::ReadbackId back = graph.readback("results", results);
-    engine::Executor executor(gpu::device(), gpu::shaders());
-    const engine::FrameResult frame = executor.run(graph);
+    const graph::ReadbackId back = graph.readback("results", results);
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    const gpu::FrameResult frame = executor.run(graph);
     const cv::Mat4f values = frame.mat(back);
-    std::vector<Response> responses;
+    std::vector<optics::Response> responses;
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const cv::Vec4f v = values(static_cast<int>(i / width), static_cast<int>(i % width));
         responses.push_back({.r = v[0], .r_without_specular = v[1], .t = v[2]});
@@ -49,10 +49,10 @@ std::vector<Response> evaluate(const std::vector<Stack>& stacks, Rung rung)
     return responses;
 }
 
-const std::vector<Stack>& every_kind()
+const std::vector<optics::Stack>& every_kind()
 {
-    static const std::vector<Stack> stacks = [] {
-        std::vector<Stack> result = corners(1e-36f);
+    static const std::vector<optics::Stack> stacks = [] {
+        std::vector<optics::Stack> result = corners(1e-36f);
         Draw draw(1);
         for (int i = 0; i < 10000; ++i)
             result.push_back(draw.stack());
@@ -61,18 +61,19 @@ const std::vector<Stack>& every_kind()
     return stacks;
 }
 
-double difference(const Response& a, const Response& b)
+double difference(const optics::Response& a, const optics::Response& b)
 {
     return std::max(std::abs(a.r - b.r), std::abs(a.t - b.t));
 }
 
 // Fails where the shader answers to one list of stacks and to the other differently.
-void expect_same(const std::vector<Stack>& a, const std::vector<Stack>& b, Rung rung, double tolerance)
+void expect_same(const std::vector<optics::Stack>& a, const std::vector<optics::Stack>& b,
+                 optics::ReflectanceModel level, double tolerance)
 {
-    const std::vector<Response> of_a = evaluate(a, rung), of_b = evaluate(b, rung);
+    const std::vector<optics::Response> of_a = evaluate(a, level), of_b = evaluate(b, level);
     for (std::size_t i = 0; i < a.size(); ++i) {
         ASSERT_LE(difference(of_a[i], of_b[i]), tolerance)
-            << name(rung) << " " << text(a[i]) << " / " << text(b[i]);
+            << optics::name(level) << " " << text(a[i]) << " / " << text(b[i]);
     }
 }
 
@@ -87,12 +88,12 @@ using ReflectanceInFloat = gpu::Test;
 
 TEST_F(ReflectanceInFloat, EqualsTheReference)
 {
-    for (Rung rung : bounded) {
-        const std::vector<Response> responses = evaluate(every_kind(), rung);
+    for (optics::ReflectanceModel level : bounded) {
+        const std::vector<optics::Response> responses = evaluate(every_kind(), level);
         for (std::size_t i = 0; i < responses.size(); ++i) {
-            const Response exact = reflectance(every_kind()[i], rung);
+            const optics::Response exact = optics::reflectance(every_kind()[i], level);
             ASSERT_LE(difference(responses[i], exact), reference_tolerance)
-                << name(rung) << " " << text(every_kind()[i]);
+                << optics::name(level) << " " << text(every_kind()[i]);
             ASSERT_NEAR(responses[i].r_without_specular, exact.r_without_specular, reference_tolerance);
         }
     }
@@ -100,60 +101,61 @@ TEST_F(ReflectanceInFloat, EqualsTheReference)
 
 TEST_F(ReflectanceInFloat, ReturnsAndPassesOnNoMoreThanArrives)
 {
-    for (Rung rung : bounded) {
-        const std::vector<Response> responses = evaluate(every_kind(), rung);
+    for (optics::ReflectanceModel level : bounded) {
+        const std::vector<optics::Response> responses = evaluate(every_kind(), level);
         for (std::size_t i = 0; i < responses.size(); ++i) {
-            const Response& x = responses[i];
+            const optics::Response& x = responses[i];
             ASSERT_TRUE(x.r >= 0 && x.t >= 0 && x.r + x.t <= 1 + rounding)
-                << name(rung) << " r " << x.r << " t " << x.t << " of " << text(every_kind()[i]);
+                << optics::name(level) << " r " << x.r << " t " << x.t << " of " << text(every_kind()[i]);
         }
     }
 }
 
 TEST_F(ReflectanceInFloat, LosesNothingWithoutAbsorption)
 {
-    std::vector<Stack> stacks;
-    for (const Stack& stack : every_kind())
+    std::vector<optics::Stack> stacks;
+    for (const optics::Stack& stack : every_kind())
         stacks.push_back(without_absorption(stack));
-    for (Rung rung : two_streams) {
-        const std::vector<Response> responses = evaluate(stacks, rung);
+    for (optics::ReflectanceModel level : two_streams) {
+        const std::vector<optics::Response> responses = evaluate(stacks, level);
         for (std::size_t i = 0; i < responses.size(); ++i)
-            ASSERT_NEAR(responses[i].r + responses[i].t, 1, rounding) << name(rung) << " " << text(stacks[i]);
+            ASSERT_NEAR(responses[i].r + responses[i].t, 1, rounding)
+                << optics::name(level) << " " << text(stacks[i]);
     }
 }
 
 TEST_F(ReflectanceInFloat, DoesNotSeeALayerSplitInTwo)
 {
     Draw draw(2);
-    std::vector<Stack> split;
-    for (const Stack& stack : every_kind())
+    std::vector<optics::Stack> split;
+    for (const optics::Stack& stack : every_kind())
         split.push_back(draw.split(stack));
-    for (Rung rung : two_streams)
-        expect_same(split, every_kind(), rung, rounding);
+    for (optics::ReflectanceModel level : two_streams)
+        expect_same(split, every_kind(), level, rounding);
 }
 
 TEST_F(ReflectanceInFloat, SeesNothingInALayerWithoutThickness)
 {
     Draw draw(3);
-    std::vector<Stack> with;
-    for (const Stack& stack : every_kind())
+    std::vector<optics::Stack> with;
+    for (const optics::Stack& stack : every_kind())
         with.push_back(draw.with_empty_layer(stack));
-    for (Rung rung : bounded)
-        expect_same(with, every_kind(), rung, rounding);
+    for (optics::ReflectanceModel level : bounded)
+        expect_same(with, every_kind(), level, rounding);
 }
 
 TEST_F(ReflectanceInFloat, MakesNoStepWhereACoefficientVanishes)
 {
     Draw draw(4);
-    for (double LayerOptics::*coefficient : coefficients) {
-        std::vector<Stack> small = every_kind(), zero = small;
+    for (double optics::LayerOptics::*coefficient : coefficients) {
+        std::vector<optics::Stack> small = every_kind(), zero = small;
         for (std::size_t i = 0; i < small.size(); ++i) {
             const std::size_t at = draw.place(small[i]);
             small[i].layers[at].*coefficient = 1e-36;
             zero[i].layers[at].*coefficient = 0;
         }
-        for (Rung rung : two_streams)
-            expect_same(small, zero, rung, rounding);
+        for (optics::ReflectanceModel level : two_streams)
+            expect_same(small, zero, level, rounding);
     }
 }
 
@@ -161,11 +163,11 @@ TEST_F(ReflectanceInFloat, MakesNoStepAnywhere)
 {
     // A coefficient that grows by one part in a thousand moves R and T by no more than that.
     Draw draw(5);
-    for (double LayerOptics::*coefficient : coefficients) {
-        std::vector<Stack> more = every_kind();
-        for (Stack& stack : more)
+    for (double optics::LayerOptics::*coefficient : coefficients) {
+        std::vector<optics::Stack> more = every_kind();
+        for (optics::Stack& stack : more)
             stack.layers[draw.place(stack)].*coefficient *= 1.001;
-        for (Rung rung : two_streams)
-            expect_same(more, every_kind(), rung, 1e-3);
+        for (optics::ReflectanceModel level : two_streams)
+            expect_same(more, every_kind(), level, 1e-3);
     }
 }

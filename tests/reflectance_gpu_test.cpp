@@ -3,36 +3,36 @@
 #include <gtest/gtest.h>
 #include <random>
 
-#include "engine/executor.hpp"
+#include "engine/gpu/executor.hpp"
 #include "passes/reflectance_lut.hpp"
 #include "tests/gpu.hpp"
-#include "wound/skin_presets.hpp"
+#include "wound/optics/skin_presets.hpp"
 
 namespace {
-
-using namespace wound;
 
 class ReflectanceLutTest : public gpu::Test
 {
   protected:
-    cv::Mat4f bake(const passes::LutTissue& tissue, Rung rung, std::uint32_t width = 16)
+    cv::Mat4f bake(const passes::LutTissue& tissue, optics::ReflectanceModel model, std::uint32_t width = 16)
     {
-        engine::Graph graph;
-        const passes::ReflectanceLut lut = passes::add_reflectance_lut(graph, "lut", tissue, rung, width);
-        const engine::ReadbackId back = graph.readback("lut", lut.reflectance);
+        graph::Graph graph;
+        const passes::ReflectanceLut lut = passes::add_reflectance_lut(graph, "lut", tissue, model, width);
+        const graph::ReadbackId back = graph.readback("lut", lut.reflectance);
         last = executor.run(graph);
         cv::Mat4f pixels;
         last.mat(back).convertTo(pixels, CV_32F);
         return pixels;
     }
 
-    engine::Executor executor{gpu::device(), gpu::shaders()};
-    engine::FrameResult last;
+    gpu::Executor executor{gpu::device(), gpu::shaders()};
+    gpu::FrameResult last;
 };
 
 constexpr double last_day = 30;
-constexpr Rung shader_rungs[] = {Rung::Published,      Rung::Clamped,   Rung::Exponential,
-                                 Rung::TwoStreamPaper, Rung::TwoStream, Rung::Calibrated};
+constexpr optics::ReflectanceModel shader_models[] = {
+    optics::ReflectanceModel::Published,   optics::ReflectanceModel::Clamped,
+    optics::ReflectanceModel::Exponential, optics::ReflectanceModel::TwoStreamPaper,
+    optics::ReflectanceModel::TwoStream,   optics::ReflectanceModel::Calibrated};
 
 double as_float(double x)
 {
@@ -56,9 +56,9 @@ class RandomTissue
         const int corner = std::uniform_int_distribution(0, 9)(random_);
         return corner == 0 ? 0 : corner == 1 ? high : logarithmic(low, high);
     }
-    Layer layer(double thickness, double low, double high)
+    optics::Layer layer(double thickness, double low, double high)
     {
-        Layer result{.name = "", .sigma_a = {}, .sigma_s_reduced = {}, .thickness_mm = thickness};
+        optics::Layer result{.name = "", .sigma_a = {}, .sigma_s_reduced = {}, .thickness_mm = thickness};
         for (int c = 0; c < 3; ++c) {
             result.sigma_a.push_back(coefficient(low, high));
             result.sigma_s_reduced.push_back(coefficient(low, high));
@@ -69,12 +69,12 @@ class RandomTissue
     }
 
     /// One day for each row: four intact layers of the given thicknesses, regrown tissue and cover on some.
-    std::vector<TissueDay> rows(std::size_t count, const std::vector<double>& thicknesses, double low,
-                                double high, bool injured)
+    std::vector<optics::TissueDay> rows(std::size_t count, const std::vector<double>& thicknesses, double low,
+                                        double high, bool injured)
     {
-        std::vector<TissueDay> result(count);
+        std::vector<optics::TissueDay> result(count);
         const double above = uniform(1, 3), below = uniform(1, 3);
-        for (TissueDay& day : result) {
+        for (optics::TissueDay& day : result) {
             day.intact.n_above = above;
             day.intact.n_below = below;
             for (double thickness : thicknesses)
@@ -99,20 +99,21 @@ double expected(double color)
 
 // Single precision in the formulas, then half, which some drivers reach by truncation: one unit in the last
 // place.
-void expect_table(const cv::Mat4f& table, const std::vector<TissueDay>& rows, const passes::LutTissue& tissue,
-                  Rung rung, double absolute)
+void expect_table(const cv::Mat4f& table, const std::vector<optics::TissueDay>& rows,
+                  const passes::LutTissue& tissue, optics::ReflectanceModel model, double absolute)
 {
     ASSERT_EQ(table.rows, static_cast<int>(rows.size()));
     for (int y = 0; y < table.rows; ++y)
         for (int x = 0; x < table.cols; ++x) {
             const float injury = shared::lut_value(static_cast<float>(x), static_cast<float>(table.cols),
                                                    tissue.parameters.axes.deepest_mm);
-            const Color color = tissue_color(layers_at(rows[static_cast<std::size_t>(y)], injury), rung);
+            const base::Color color =
+                optics::tissue_color(optics::layers_at(rows[static_cast<std::size_t>(y)], injury), model);
             for (int c = 0; c < 3; ++c) {
                 const double want = expected(color[c]);
                 const double got = table(y, x)[c];
                 ASSERT_NEAR(got, want, absolute + want * 0x1p-10)
-                    << name(rung) << " row " << y << " column " << x << " channel " << c;
+                    << optics::name(model) << " row " << y << " column " << x << " channel " << c;
             }
         }
 }
@@ -123,86 +124,96 @@ TEST_F(ReflectanceLutTest, EqualsTheReferenceOnRandomTissue)
 {
     RandomTissue random(1);
     for (int i = 0; i < 6; ++i) {
-        const std::vector<TissueDay> rows = random.rows(200, {.2, 1, .5, 4}, 1e-6, 1e3, true);
+        const std::vector<optics::TissueDay> rows = random.rows(200, {.2, 1, .5, 4}, 1e-6, 1e3, true);
         const passes::LutTissue tissue = passes::lut_tissue(rows, last_day);
-        for (Rung rung :
-             {Rung::Clamped, Rung::Exponential, Rung::TwoStreamPaper, Rung::TwoStream, Rung::Calibrated})
-            expect_table(bake(tissue, rung), rows, tissue, rung, 3e-5);
+        for (optics::ReflectanceModel model :
+             {optics::ReflectanceModel::Clamped, optics::ReflectanceModel::Exponential,
+              optics::ReflectanceModel::TwoStreamPaper, optics::ReflectanceModel::TwoStream,
+              optics::ReflectanceModel::Calibrated})
+            expect_table(bake(tissue, model), rows, tissue, model, 3e-5);
     }
 }
 
 TEST_F(ReflectanceLutTest, IntegratesTheSpectrumOfChromophoreTissue)
 {
-    std::vector<TissueDay> rows;
+    std::vector<optics::TissueDay> rows;
     for (std::size_t i = 0; i < 24; ++i) {
-        const double day = passes::lut_row_day(i, 24, last_day);
-        rows.push_back(i % 2 ? open_bed(skin(SkinTone::Light), day, 1 - day / last_day)
-                             : covered_bed(skin(SkinTone::Dark), day, 20));
+        const double day = wound::lut_row_day(i, 24, last_day);
+        rows.push_back(i % 2
+                           ? optics::open_bed(optics::skin(optics::SkinTone::Light), day, 1 - day / last_day)
+                           : optics::covered_bed(optics::skin(optics::SkinTone::Dark), day, 20));
     }
     const passes::LutTissue tissue = passes::lut_tissue(rows, last_day);
-    expect_table(bake(tissue, Rung::TwoStream, 32), rows, tissue, Rung::TwoStream, 3e-5);
-    expect_table(bake(tissue, Rung::Calibrated, 32), rows, tissue, Rung::Calibrated, 3e-5);
+    expect_table(bake(tissue, optics::ReflectanceModel::TwoStream, 32), rows, tissue,
+                 optics::ReflectanceModel::TwoStream, 3e-5);
+    expect_table(bake(tissue, optics::ReflectanceModel::Calibrated, 32), rows, tissue,
+                 optics::ReflectanceModel::Calibrated, 3e-5);
 }
 
-TEST_F(ReflectanceLutTest, PublishedRungIsAsPrintedWhereItStaysFinite)
+TEST_F(ReflectanceLutTest, PublishedModelIsAsPrintedWhereItStaysFinite)
 {
     RandomTissue random(2);
-    const std::vector<TissueDay> rows = random.rows(200, {.2, 1, .5, 4}, 1e-3, .2, true);
+    const std::vector<optics::TissueDay> rows = random.rows(200, {.2, 1, .5, 4}, 1e-3, .2, true);
     const passes::LutTissue tissue = passes::lut_tissue(rows, last_day);
-    expect_table(bake(tissue, Rung::Published), rows, tissue, Rung::Published, 3e-5);
+    expect_table(bake(tissue, optics::ReflectanceModel::Published), rows, tissue,
+                 optics::ReflectanceModel::Published, 3e-5);
 }
 
 TEST_F(ReflectanceLutTest, IsFiniteAndNotNegativeAtEveryExtreme)
 {
     RandomTissue random(3);
     for (double thickness : {0., 1e-9, 1e9}) {
-        const std::vector<TissueDay> rows = random.rows(300, {thickness, 1e9, thickness}, 1e-9, 1e6, false);
+        const std::vector<optics::TissueDay> rows =
+            random.rows(300, {thickness, 1e9, thickness}, 1e-9, 1e6, false);
         const passes::LutTissue tissue = passes::lut_tissue(rows, last_day);
-        for (Rung rung : shader_rungs) {
-            const cv::Mat4f table = bake(tissue, rung, 4);
+        for (optics::ReflectanceModel model : shader_models) {
+            const cv::Mat4f table = bake(tissue, model, 4);
             for (const cv::Vec4f& texel : table)
                 for (int c = 0; c < 3; ++c)
-                    ASSERT_TRUE(texel[c] >= 0 && texel[c] <= (rung == Rung::Published ? 65504.f : 1.f))
-                        << name(rung);
-            if (rung != Rung::Published)
-                expect_table(table, rows, tissue, rung, 3e-5);
+                    ASSERT_TRUE(texel[c] >= 0 &&
+                                texel[c] <= (model == optics::ReflectanceModel::Published ? 65504.f : 1.f))
+                        << optics::name(model);
+            if (model != optics::ReflectanceModel::Published)
+                expect_table(table, rows, tissue, model, 3e-5);
         }
     }
 }
 
 TEST_F(ReflectanceLutTest, EqualsTheReferenceAtAllCorners)
 {
-    std::vector<TissueDay> rows;
+    std::vector<optics::TissueDay> rows;
     for (double a : {0., 1e-30, 1e6})
         for (double s : {0., 1e-30, 1e6})
             for (double g : {-1., 0., 1e-7, 1.})
                 for (double n : {1., 1 + 1e-6, 1.29, 1.31, 3.})
                     for (double d : {0., 1e-9, 1e9}) {
-                        const Layer layer{"",          {a, as_float(1.7), as_float(.3)},
-                                          {s, 0, 1e6}, as_float(g),
-                                          as_float(n), as_float(d)};
-                        TissueDay day = restored_skin(
+                        const optics::Layer layer{"",          {a, as_float(1.7), as_float(.3)},
+                                                  {s, 0, 1e6}, as_float(g),
+                                                  as_float(n), as_float(d)};
+                        optics::TissueDay day = optics::restored_skin(
                             {.layers = {layer, layer}, .n_above = 1, .n_below = as_float(1.4)}, 0);
                         day.cover.thickness_mm = 0;
                         rows.push_back(day);
                     }
     const passes::LutTissue tissue = passes::lut_tissue(rows, last_day);
-    for (Rung rung :
-         {Rung::Clamped, Rung::Exponential, Rung::TwoStreamPaper, Rung::TwoStream, Rung::Calibrated})
-        expect_table(bake(tissue, rung, 2), rows, tissue, rung, 3e-5);
+    for (optics::ReflectanceModel model :
+         {optics::ReflectanceModel::Clamped, optics::ReflectanceModel::Exponential,
+          optics::ReflectanceModel::TwoStreamPaper, optics::ReflectanceModel::TwoStream,
+          optics::ReflectanceModel::Calibrated})
+        expect_table(bake(tissue, model, 2), rows, tissue, model, 3e-5);
 }
 
 TEST_F(ReflectanceLutTest, IsBakedAgainOnlyWhenTheTissueChanges)
 {
-    std::vector<TissueDay> rows(8, restored_skin(table1(), 1));
+    std::vector<optics::TissueDay> rows(8, optics::restored_skin(optics::table1(), 1));
     const passes::LutTissue tissue = passes::lut_tissue(rows, last_day);
-    bake(tissue, Rung::TwoStream);
-    EXPECT_EQ(last.pass("lut").state, engine::PassState::Run);
-    bake(tissue, Rung::TwoStream);
-    EXPECT_NE(last.pass("lut").state, engine::PassState::Run);
+    bake(tissue, optics::ReflectanceModel::TwoStream);
+    EXPECT_EQ(last.pass("lut").state, graph::PassState::Run);
+    bake(tissue, optics::ReflectanceModel::TwoStream);
+    EXPECT_NE(last.pass("lut").state, graph::PassState::Run);
     rows[3].intact.layers[0].sigma_a[0] = .05;
-    bake(passes::lut_tissue(rows, last_day), Rung::TwoStream);
-    EXPECT_EQ(last.pass("lut").state, engine::PassState::Run);
+    bake(passes::lut_tissue(rows, last_day), optics::ReflectanceModel::TwoStream);
+    EXPECT_EQ(last.pass("lut").state, graph::PassState::Run);
 }
 
 TEST(LutCoordinate, BakerAndSamplerAgreeAtEveryTexelCentre)
@@ -217,5 +228,5 @@ TEST(LutCoordinate, BakerAndSamplerAgreeAtEveryTexelCentre)
     EXPECT_EQ(shared::lut_coordinate(99.f, 8, 3.2f), 7.5f / 8);
     EXPECT_EQ(shared::lut_coordinate(1.f, 8, 0.f), .5f / 8);
     EXPECT_EQ(shared::lut_coordinate(NAN, 8, 3.2f), .5f / 8);
-    EXPECT_DOUBLE_EQ(passes::lut_row_day(63, 64, 30), 30);
+    EXPECT_DOUBLE_EQ(wound::lut_row_day(63, 64, 30), 30);
 }

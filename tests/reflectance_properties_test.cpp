@@ -1,19 +1,18 @@
 // What must hold for any tissue, in double precision: thousands of random stacks and all corners, for every
-// rung that promises it. The same in the shader's single precision: reflectance_float_test.cpp.
+// model that promises it. The same in the shader's single precision: reflectance_float_test.cpp.
 #include <gtest/gtest.h>
 #include <numeric>
 
 #include "tests/random_tissue.hpp"
 
-using namespace wound;
 using namespace random_tissue;
 
 namespace {
 
-const std::vector<Stack>& every_kind()
+const std::vector<optics::Stack>& every_kind()
 {
-    static const std::vector<Stack> stacks = [] {
-        std::vector<Stack> result = corners(1e-300);
+    static const std::vector<optics::Stack> stacks = [] {
+        std::vector<optics::Stack> result = corners(1e-300);
         Draw draw(1);
         for (int i = 0; i < 10000; ++i)
             result.push_back(draw.stack());
@@ -22,84 +21,93 @@ const std::vector<Stack>& every_kind()
     return stacks;
 }
 
-// Calls check(stack, rung, light) for all of them, until one fails.
+// Calls check(stack, model, light) for all of them, until one fails.
 template <std::size_t count, typename Check>
-void for_each_case(const Rung (&rungs)[count], const Check& check)
+void for_each_case(const optics::ReflectanceModel (&models)[count], const Check& check)
 {
-    for (const Stack& stack : every_kind())
-        for (Rung rung : rungs)
-            for (Incidence incidence : {Incidence::Diffuse, Incidence::Normal}) {
-                check(stack, rung, RungOptions{.incidence = incidence});
+    for (const optics::Stack& stack : every_kind())
+        for (optics::ReflectanceModel model : models)
+            for (optics::Incidence incidence : {optics::Incidence::Diffuse, optics::Incidence::Normal}) {
+                check(stack, model, optics::ReflectanceOptions{.incidence = incidence});
                 if (testing::Test::HasFatalFailure())
                     return;
             }
 }
 
-bool same(const Response& a, const Response& b, double tolerance)
+bool same(const optics::Response& a, const optics::Response& b, double tolerance)
 {
     return std::abs(a.r - b.r) <= tolerance && std::abs(a.t - b.t) <= tolerance;
 }
 
 } // namespace
 
-TEST(BoundedRungs, ReturnAndPassOnNoMoreThanArrives)
+TEST(BoundedModels, ReturnAndPassOnNoMoreThanArrives)
 {
-    for_each_case(bounded, [](const Stack& stack, Rung rung, const RungOptions& light) {
-        const Response x = reflectance(stack, rung, light);
+    for_each_case(bounded, [](const optics::Stack& stack, optics::ReflectanceModel model,
+                              const optics::ReflectanceOptions& light) {
+        const optics::Response x = optics::reflectance(stack, model, light);
         ASSERT_TRUE(x.r >= 0 && x.r_without_specular >= 0 && x.t >= 0 && x.r + x.t <= 1 + 1e-14)
-            << name(rung) << " r " << x.r << " t " << x.t << " of " << text(stack);
+            << optics::name(model) << " r " << x.r << " t " << x.t << " of " << text(stack);
     });
 }
 
-TEST(BoundedRungs, SeeNothingInALayerWithoutThickness)
+TEST(BoundedModels, SeeNothingInALayerWithoutThickness)
 {
     Draw draw(2);
-    for_each_case(bounded, [&](const Stack& without, Rung rung, const RungOptions& light) {
-        const Stack with = draw.with_empty_layer(without);
-        ASSERT_TRUE(same(reflectance(with, rung, light), reflectance(without, rung, light), 1e-15))
-            << name(rung) << " " << text(with);
+    for_each_case(bounded, [&](const optics::Stack& without, optics::ReflectanceModel model,
+                               const optics::ReflectanceOptions& light) {
+        const optics::Stack with = draw.with_empty_layer(without);
+        ASSERT_TRUE(
+            same(optics::reflectance(with, model, light), optics::reflectance(without, model, light), 1e-15))
+            << optics::name(model) << " " << text(with);
     });
 }
 
 TEST(TwoStream, LosesNothingWithoutAbsorption)
 {
-    for_each_case(two_streams, [](const Stack& any, Rung rung, const RungOptions& light) {
-        const Stack stack = without_absorption(any);
-        const Response x = reflectance(stack, rung, light);
-        ASSERT_NEAR(x.r + x.t, 1, 1e-12) << name(rung) << " " << text(stack);
+    for_each_case(two_streams, [](const optics::Stack& any, optics::ReflectanceModel model,
+                                  const optics::ReflectanceOptions& light) {
+        const optics::Stack stack = without_absorption(any);
+        const optics::Response x = optics::reflectance(stack, model, light);
+        ASSERT_NEAR(x.r + x.t, 1, 1e-12) << optics::name(model) << " " << text(stack);
     });
 }
 
 TEST(TwoStream, AccountsForAllLight)
 {
-    for_each_case(two_streams, [](const Stack& stack, Rung rung, const RungOptions& light) {
-        const Response x = reflectance(stack, rung, light);
+    for_each_case(two_streams, [](const optics::Stack& stack, optics::ReflectanceModel model,
+                                  const optics::ReflectanceOptions& light) {
+        const optics::Response x = optics::reflectance(stack, model, light);
         const double sum = std::accumulate(x.absorbed.begin(), x.absorbed.end(), x.r + x.t);
-        ASSERT_NEAR(sum, 1, 1e-12) << name(rung) << " " << text(stack);
+        ASSERT_NEAR(sum, 1, 1e-12) << optics::name(model) << " " << text(stack);
     });
 }
 
 TEST(TwoStream, DoesNotSeeALayerSplitInTwo)
 {
     Draw draw(3);
-    for_each_case(two_streams, [&](const Stack& whole, Rung rung, const RungOptions& light) {
-        const Stack split = draw.split(whole);
-        ASSERT_TRUE(same(reflectance(whole, rung, light), reflectance(split, rung, light), 1e-12))
-            << name(rung) << " " << text(split);
+    for_each_case(two_streams, [&](const optics::Stack& whole, optics::ReflectanceModel model,
+                                   const optics::ReflectanceOptions& light) {
+        const optics::Stack split = draw.split(whole);
+        ASSERT_TRUE(
+            same(optics::reflectance(whole, model, light), optics::reflectance(split, model, light), 1e-12))
+            << optics::name(model) << " " << text(split);
     });
 }
 
 TEST(TwoStream, MakesNoStepWhereACoefficientVanishes)
 {
     Draw draw(4);
-    for_each_case(two_streams, [&](const Stack& stack, Rung rung, const RungOptions& light) {
-        for (double LayerOptics::*coefficient : coefficients) {
-            Stack small = stack, zero = stack;
+    for_each_case(two_streams, [&](const optics::Stack& stack, optics::ReflectanceModel model,
+                                   const optics::ReflectanceOptions& light) {
+        for (double optics::LayerOptics::*coefficient : coefficients) {
+            optics::Stack small = stack, zero = stack;
             const std::size_t at = draw.place(stack);
             small.layers[at].*coefficient = 1e-60;
             zero.layers[at].*coefficient = 0;
-            ASSERT_TRUE(same(reflectance(small, rung, light), reflectance(zero, rung, light), 1e-12))
-                << name(rung) << " " << text(small);
+            ASSERT_TRUE(same(optics::reflectance(small, model, light),
+                             optics::reflectance(zero, model, light), 1e-12))
+                << optics::name(model) << " " << text(small);
         }
     });
 }
@@ -108,12 +116,14 @@ TEST(TwoStream, MakesNoStepAnywhere)
 {
     // A coefficient that grows by one part in a million moves R and T by no more than that.
     Draw draw(5);
-    for_each_case(two_streams, [&](const Stack& stack, Rung rung, const RungOptions& light) {
-        for (double LayerOptics::*coefficient : coefficients) {
-            Stack more = stack;
+    for_each_case(two_streams, [&](const optics::Stack& stack, optics::ReflectanceModel model,
+                                   const optics::ReflectanceOptions& light) {
+        for (double optics::LayerOptics::*coefficient : coefficients) {
+            optics::Stack more = stack;
             more.layers[draw.place(stack)].*coefficient *= 1 + 1e-6;
-            ASSERT_TRUE(same(reflectance(more, rung, light), reflectance(stack, rung, light), 1e-6))
-                << name(rung) << " " << text(more);
+            ASSERT_TRUE(
+                same(optics::reflectance(more, model, light), optics::reflectance(stack, model, light), 1e-6))
+                << optics::name(model) << " " << text(more);
         }
     });
 }

@@ -3,18 +3,18 @@
 #include <gmock/gmock.h>
 #include <regex>
 
-#include "apps/mesh_density.hpp"
-#include "apps/report_cases.hpp"
-#include "apps/report_compare.hpp"
-#include "apps/report_json.hpp"
-#include "apps/report_page.hpp"
-#include "apps/report_sweep.hpp"
-#include "apps/stage.hpp"
+#include "apps/report/cases.hpp"
+#include "apps/report/comparison.hpp"
+#include "apps/report/json.hpp"
+#include "apps/report/mesh_density.hpp"
+#include "apps/report/page.hpp"
+#include "apps/report/sweep.hpp"
+#include "base/input_error.hpp"
+#include "stage/stage.hpp"
 #include "tests/gpu.hpp"
 #include "tests/process.hpp"
 #include "tests/small_head.hpp"
 #include "tests/temporary_folder.hpp"
-#include "wound/input_error.hpp"
 
 namespace {
 
@@ -22,7 +22,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr app::Rounds few{.warm_up = 1, .counted = 1, .timed = 6};
+constexpr stage::Rounds few{.warm_up = 1, .counted = 1, .timed = 6};
 
 json some_facts(bool software = true)
 {
@@ -59,20 +59,21 @@ json some_facts(bool software = true)
 /// One measurement that all tests look at.
 struct Measured
 {
-    std::vector<app::Measurement> measurements;
-    std::vector<app::CaseSummary> summaries;
+    std::vector<stage::Measurement> measurements;
+    std::vector<report_command::CaseSummary> summaries;
     json record;
 
     static const Measured& once()
     {
         static const Measured measured = [] {
-            const app::Scene scene = small::scene(small::head(), 64);
-            app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
+            const scene::Scene scene = small::scene(small::head(), 64);
+            stage::Stage stage(gpu::device(), stage::Stage::prepare(scene));
             Measured made;
-            made.measurements = app::measure(gpu::device(), gpu::shaders(), app::report_cases(stage), few);
-            for (const app::Measurement& one : made.measurements)
-                made.summaries.push_back(app::summarise(one));
-            made.record = app::report_json(some_facts(), made.summaries, made.measurements);
+            made.measurements =
+                stage::measure(gpu::device(), gpu::shaders(), report_command::report_cases(stage), few);
+            for (const stage::Measurement& one : made.measurements)
+                made.summaries.push_back(report_command::summarise(one));
+            made.record = report_command::report_json(some_facts(), made.summaries, made.measurements);
             return made;
         }();
         return measured;
@@ -80,10 +81,10 @@ struct Measured
 };
 
 /// The passes that ran, and in how many frames.
-std::map<std::string, int> ran_counts(const app::CaseSummary& summary)
+std::map<std::string, int> ran_counts(const report_command::CaseSummary& summary)
 {
     std::map<std::string, int> counts;
-    for (const app::PassSummary& pass : summary.passes) {
+    for (const report_command::PassSummary& pass : summary.passes) {
         EXPECT_EQ(pass.ran + pass.skipped + pass.culled, few.timed) << pass.name;
         if (pass.ran > 0)
             counts[pass.name] = pass.ran;
@@ -111,14 +112,14 @@ TEST_F(Report, InEachCaseRunsWhatMoves)
 
 TEST_F(Report, TheCasesMoveThePictureAndLeaveTheStageAsItWas)
 {
-    const app::Scene scene = small::scene(small::head(), 64);
-    app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
-    const std::vector<app::MeasuredCase> cases = app::report_cases(stage);
-    engine::Executor executor(gpu::device(), gpu::shaders());
-    const auto picture = [&](const app::MeasuredCase& one, double position) {
-        engine::Graph graph;
+    const scene::Scene scene = small::scene(small::head(), 64);
+    stage::Stage stage(gpu::device(), stage::Stage::prepare(scene));
+    const std::vector<stage::MeasuredCase> cases = report_command::report_cases(stage);
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    const auto picture = [&](const stage::MeasuredCase& one, double position) {
+        graph::Graph graph;
         one.declare(graph, position);
-        const engine::FrameResult frame = executor.run(graph);
+        const gpu::FrameResult frame = executor.run(graph);
         one.afterwards();
         return frame.readbacks.at(0).bytes;
     };
@@ -133,14 +134,14 @@ TEST_F(Report, TheCasesMoveThePictureAndLeaveTheStageAsItWas)
 
 TEST_F(Report, WhatMustAddUpAddsUp)
 {
-    for (const app::CaseSummary& summary : Measured::once().summaries) {
+    for (const report_command::CaseSummary& summary : Measured::once().summaries) {
         SCOPED_TRACE(summary.name);
         double parts = 0, passes = 0;
-        for (const app::FramePart& part : summary.parts) {
+        for (const report_command::FramePart& part : summary.parts) {
             EXPECT_GE(part.share, -1e-9) << part.name;
             parts += part.share;
         }
-        for (const app::PassSummary& pass : summary.passes) {
+        for (const report_command::PassSummary& pass : summary.passes) {
             passes += pass.share;
             EXPECT_EQ(pass.gpu_ms.has_value(), pass.ran > 0) << pass.name;
             EXPECT_EQ(pass.share > 0, pass.ran > 0) << pass.name;
@@ -158,7 +159,7 @@ TEST_F(Report, WhatMustAddUpAddsUp)
         EXPECT_LE(summary.coverage, 1);
         EXPECT_LE(summary.sum_ms.value().median, summary.envelope_ms.value().median + 1e-9);
         EXPECT_LE(summary.envelope_ms->median, summary.wall_ms.median);
-        EXPECT_THAT(app::to_text(summary),
+        EXPECT_THAT(report_command::to_text(summary),
                     testing::AllOf(HasSubstr("forward"), HasSubstr("the passes explain")));
     }
 }
@@ -181,7 +182,7 @@ TEST_F(Report, TheRecordHoldsEveryFrame)
 
 TEST_F(Report, TheTraceIsInOrderOnBothTracks)
 {
-    const json trace = app::trace_json(some_facts(), Measured::once().measurements);
+    const json trace = report_command::trace_json(some_facts(), Measured::once().measurements);
     std::map<std::pair<int, int>, std::string> names;
     std::map<int, json> frame; // of each process, the last seen
     std::map<std::string, int> gpu_events;
@@ -223,14 +224,16 @@ TEST_F(Report, TheTraceIsInOrderOnBothTracks)
 TEST_F(Report, ThePageNeedsNothingButItself)
 {
     const Measured& measured = Measured::once();
-    const app::Comparison self = app::compare_reports(measured.record, measured.record, "old/report.json");
-    const std::string page = app::report_page(some_facts(), measured.summaries, measured.measurements, self);
+    const report_command::Comparison self =
+        report_command::compare_reports(measured.record, measured.record, "old/report.json");
+    const std::string page =
+        report_command::report_page(some_facts(), measured.summaries, measured.measurements, self);
     EXPECT_THAT(page, Not(testing::AnyOf(HasSubstr("<script"), HasSubstr("http"), HasSubstr("url("),
                                          HasSubstr("@import"), HasSubstr("src="))));
     EXPECT_THAT(page, HasSubstr("Some &lt;device&gt; &amp; more"));
     EXPECT_THAT(page, HasSubstr("prefers-color-scheme: dark"));
     EXPECT_THAT(page, HasSubstr("software rasteriser"));
-    EXPECT_THAT(app::report_page(some_facts(false), measured.summaries, measured.measurements, {}),
+    EXPECT_THAT(report_command::report_page(some_facts(false), measured.summaries, measured.measurements, {}),
                 Not(HasSubstr("software rasteriser")));
     EXPECT_THAT(page, Not(testing::AnyOf(HasSubstr("nan"), HasSubstr("inf\""))));
     // Every element that is opened is closed again, in order.
@@ -254,10 +257,10 @@ TEST_F(Report, ThePageNeedsNothingButItself)
 TEST_F(Report, ComparesWithAnEarlierOne)
 {
     const json& now = Measured::once().record;
-    const app::Comparison self = app::compare_reports(now, now, "a.json");
+    const report_command::Comparison self = report_command::compare_reports(now, now, "a.json");
     EXPECT_THAT(self.warnings, testing::IsEmpty());
     EXPECT_GE(self.times.size(), 4u * 3);
-    for (const app::ComparedTime& time : self.times) {
+    for (const report_command::ComparedTime& time : self.times) {
         EXPECT_EQ(time.ratio.ratio, 1) << time.what;
         EXPECT_FALSE(time.exceeds_noise) << time.where << time.what;
     }
@@ -273,21 +276,22 @@ TEST_F(Report, ComparesWithAnEarlierOne)
         }
     slower["device"]["name"] = "another";
     slower["settings"]["size"] = "128x128";
-    const app::Comparison comparison = app::compare_reports(before, slower, "b.json");
+    const report_command::Comparison comparison = report_command::compare_reports(before, slower, "b.json");
     EXPECT_THAT(
         comparison.warnings,
         testing::UnorderedElementsAre(HasSubstr("device"), HasSubstr("\"64x64\" before, \"128x128\" now")));
-    for (const app::ComparedTime& time : comparison.times) {
+    for (const report_command::ComparedTime& time : comparison.times) {
         EXPECT_NEAR(time.ratio.ratio, 1.5, 1e-9);
         EXPECT_TRUE(time.exceeds_noise) << time.what;
     }
-    EXPECT_THAT(app::to_text(comparison),
+    EXPECT_THAT(report_command::to_text(comparison),
                 testing::AllOf(HasSubstr("slower"), HasSubstr("warning: the device")));
 
     // A run that drifted by itself as much as it differs says nothing.
     for (json& one : before.at("cases"))
         one.at("samples").at("wall_ms") = {10, 10, 10, 16, 16, 16};
-    for (const app::ComparedTime& time : app::compare_reports(before, slower, "c.json").times)
+    for (const report_command::ComparedTime& time :
+         report_command::compare_reports(before, slower, "c.json").times)
         if (time.what == "frame") {
             EXPECT_FALSE(time.exceeds_noise);
         }
@@ -307,13 +311,13 @@ TEST_F(Report, RefusesWhatIsNoReport)
           {"e.json", newer.dump(), "version"}})
     {
         try {
-            app::read_report(folder.with(name, text));
+            report_command::read_report(folder.with(name, text));
             FAIL() << name;
-        } catch (const cicatrix::InputError& error) {
+        } catch (const base::InputError& error) {
             EXPECT_THAT(error.what(), testing::AllOf(HasSubstr(name), HasSubstr(word)));
         }
     }
-    EXPECT_EQ(app::read_report(folder.with("good.json", Measured::once().record.dump())),
+    EXPECT_EQ(report_command::read_report(folder.with("good.json", Measured::once().record.dump())),
               Measured::once().record);
 }
 
@@ -321,16 +325,16 @@ TEST_F(Report, RefusesWhatIsNoReport)
 
 TEST_F(Report, SweepsEveryKind)
 {
-    app::Scene scene = small::scene(small::head(), 64);
+    scene::Scene scene = small::scene(small::head(), 64);
     scene.days = {0, 10};
-    for (const std::string& kind : app::sweep_names()) {
+    for (const std::string& kind : report_command::sweep_names()) {
         SCOPED_TRACE(kind);
-        const app::Sweep sweep = app::measure_sweep(kind, scene, gpu::device(), gpu::shaders(),
-                                                    {.warm_up = 0, .counted = 0, .timed = 1}, [](int) {});
+        const report_command::Sweep sweep = report_command::measure_sweep(
+            kind, scene, gpu::device(), gpu::shaders(), {.warm_up = 0, .counted = 0, .timed = 1}, [](int) {});
         EXPECT_EQ(sweep.kind, kind);
         EXPECT_NE(sweep.fixed, "");
         ASSERT_GE(sweep.series.size(), 2u);
-        for (const app::SweepSeries& series : sweep.series) {
+        for (const report_command::SweepSeries& series : sweep.series) {
             ASSERT_EQ(series.x.size(), series.ms.size()) << series.name;
             EXPECT_TRUE(std::ranges::is_sorted(series.x)) << series.name;
             EXPECT_TRUE(series.law) << series.name;
@@ -344,9 +348,9 @@ TEST_F(Report, SweepsEveryKind)
             EXPECT_NEAR(x[5] / x[3], 16, 1e-9);
             EXPECT_LT(x[0], 0.3 * x[3]);
         }
-        EXPECT_THAT(app::to_text(sweep), testing::AllOf(HasSubstr("x^("), HasSubstr("fixed: ")));
-        EXPECT_EQ(app::to_json(sweep).at("series").size(), sweep.series.size());
-        const cv::Mat3b plot = app::draw_sweep(sweep, gpu::device().info());
+        EXPECT_THAT(report_command::to_text(sweep), testing::AllOf(HasSubstr("x^("), HasSubstr("fixed: ")));
+        EXPECT_EQ(predict_command::to_json(sweep).at("series").size(), sweep.series.size());
+        const cv::Mat3b plot = report_command::draw_sweep(sweep, gpu::device().info());
         int colored = 0;
         for (const cv::Vec3b& pixel : plot)
             colored += std::abs(pixel[0] - pixel[1]) > 40 || std::abs(pixel[1] - pixel[2]) > 40;
@@ -356,8 +360,8 @@ TEST_F(Report, SweepsEveryKind)
 
 TEST(MeshDensity, KeepsTheSurfaceAndReachesTheShare)
 {
-    const engine::Model head = small::head();
-    const auto area = [](const engine::Model& model) {
+    const head::Model head = small::head();
+    const auto area = [](const head::Model& model) {
         double sum = 0;
         for (std::size_t i = 0; i + 2 < model.indices.size(); i += 3) {
             const auto corner = [&](std::size_t k) { return model.vertices[model.indices[i + k]].position; };
@@ -365,19 +369,20 @@ TEST(MeshDensity, KeepsTheSurfaceAndReachesTheShare)
         }
         return sum;
     };
-    const engine::Model fine = app::subdivided(head);
-    EXPECT_EQ(app::triangle_count(fine), 4 * app::triangle_count(head));
+    const head::Model fine = report_command::subdivided(head);
+    EXPECT_EQ(report_command::triangle_count(fine), 4 * report_command::triangle_count(head));
     EXPECT_NEAR(area(fine), area(head), 1e-4 * area(head));
-    for (const engine::Vertex& vertex : fine.vertices)
+    for (const head::Vertex& vertex : fine.vertices)
         ASSERT_NEAR(glm::length(vertex.normal), 1, 1e-4);
     for (const double share : {0.5, 0.125}) {
         const double reached =
-            double(app::triangle_count(app::clustered(head, share))) / double(app::triangle_count(head));
+            double(report_command::triangle_count(report_command::clustered(head, share))) /
+            double(report_command::triangle_count(head));
         EXPECT_LE(reached, share);
         EXPECT_GT(reached, 0.4 * share);
-        EXPECT_NEAR(area(app::clustered(head, share)), area(head), 0.15 * area(head));
+        EXPECT_NEAR(area(report_command::clustered(head, share)), area(head), 0.15 * area(head));
     }
-    for (const engine::Material& material : app::with_small_pictures(head, 16).materials)
+    for (const head::Material& material : report_command::with_small_pictures(head, 16).materials)
         EXPECT_LE(std::max({material.base_color.cols, material.normal.cols, material.occlusion.rows}), 16);
 }
 
@@ -393,7 +398,7 @@ TEST(ReportCommand, WritesEverythingAndComparesWithItself)
     for (const char* word : {"still frame", "moving camera", "moving day", "moving tissue", "GPU ms",
                              "forward", "the passes explain", "report.html"})
         EXPECT_THAT(first.out, HasSubstr(word));
-    const json record = app::read_report(folder / "out/report.json");
+    const json record = report_command::read_report(folder / "out/report.json");
     EXPECT_EQ(record.at("settings").at("size"), "64x48");
     EXPECT_THAT(record.at("scene").dump(), Not(HasSubstr(std::filesystem::path(head).parent_path().string())))
         << "a report does not tell where files lie";

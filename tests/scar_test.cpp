@@ -1,5 +1,5 @@
 // The scar against published courses, and its continuity with the wound.
-#include "wound/scar.hpp"
+#include "wound/healing/scar.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <gmock/gmock.h>
 
-#include "apps/camera_moves.hpp"
-#include "apps/history.hpp"
-#include "apps/scene_options.hpp"
-#include "apps/stage.hpp"
-#include "passes/surface.hpp"
+#include "apps/demo/camera_moves.hpp"
+#include "apps/demo/history.hpp"
+#include "head/surface.hpp"
+#include "scene/command_line.hpp"
+#include "stage/stage.hpp"
 #include "tests/gpu.hpp"
 #include "tests/small_head.hpp"
 #include "tests/temporary_folder.hpp"
@@ -17,18 +17,18 @@ using testing::Contains;
 using testing::UnorderedElementsAre;
 
 /// Where a point is seen, -1 to 1 from left to right and from top to bottom.
-glm::dvec2 seen_at(const app::Stage& stage, const passes::Camera& camera, const passes::Canvas& canvas,
+glm::dvec2 seen_at(const stage::Stage& stage, const head::Camera& camera, const passes::ViewportTile& canvas,
                    const glm::dvec3& point)
 {
     const glm::dvec4 clip = glm::dmat4(stage.view(camera, canvas).clip_from_world) * glm::dvec4(point, 1);
     return glm::dvec2(clip.x, clip.y) / clip.w;
 }
 
-std::vector<std::string> ran(const engine::FrameResult& frame)
+std::vector<std::string> ran(const gpu::FrameResult& frame)
 {
     std::vector<std::string> names;
-    for (const engine::PassResult& pass : frame.passes)
-        if (pass.state == engine::PassState::Run)
+    for (const gpu::PassResult& pass : frame.passes)
+        if (pass.state == graph::PassState::Run)
             names.push_back(pass.name);
     return names;
 }
@@ -39,38 +39,39 @@ using EditTest = gpu::Test;
 
 TEST_F(EditTest, PickingWhereAWoundIsSeenFindsItsCentre)
 {
-    app::Scene scene = small::scene(small::head());
+    scene::Scene scene = small::scene(small::head());
     scene.size = {320, 200};
     scene.wounds.push_back({});
     scene.wounds[1].place = std::string("forehead");
-    app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
-    const passes::Canvas canvas(scene.size);
+    stage::Stage stage(gpu::device(), stage::Stage::prepare(scene));
+    const passes::ViewportTile canvas(scene.size);
     for (std::size_t i : {0, 1}) {
-        const glm::dvec3 centre = stage.anchors()[i].centre;
-        const glm::dvec2 at = seen_at(stage, stage.camera(), canvas, centre);
-        const auto picked = stage.pick(stage.camera(), at.x, at.y, canvas.aspect());
+        const glm::dvec3 centre = stage.loaded().wounds[i].anchor.centre;
+        const glm::dvec2 at = seen_at(stage, stage.loaded().camera(), canvas, centre);
+        const auto picked = stage.loaded().pick(stage.loaded().camera(), at.x, at.y, canvas.aspect());
         ASSERT_TRUE(picked);
         EXPECT_LT(glm::distance(*picked, centre), 1e-5);
-        EXPECT_EQ(stage.wound_near(*picked), i);
+        EXPECT_EQ(stage.loaded().wound_near(*picked), i);
         scene.wounds[i].place = *picked; // and a wound that is put there lies as before
         stage.update(scene);
-        EXPECT_LT(glm::distance(stage.anchors()[i].centre, centre), 1e-5);
+        EXPECT_LT(glm::distance(stage.loaded().wounds[i].anchor.centre, centre), 1e-5);
     }
-    EXPECT_FALSE(stage.pick(stage.camera(), -.99, -.99, canvas.aspect())) << "beside the head";
-    const auto chin = stage.pick(stage.camera(), 0, .8, canvas.aspect());
+    EXPECT_FALSE(stage.loaded().pick(stage.loaded().camera(), -.99, -.99, canvas.aspect()))
+        << "beside the head";
+    const auto chin = stage.loaded().pick(stage.loaded().camera(), 0, .8, canvas.aspect());
     ASSERT_TRUE(chin);
-    EXPECT_FALSE(stage.wound_near(*chin));
+    EXPECT_FALSE(stage.loaded().wound_near(*chin));
 }
 
 TEST_F(EditTest, DraggingMovesAWoundWithoutJumps)
 {
-    const engine::Model head = small::head();
-    const passes::FaceFrame face = passes::find_face(head);
+    const head::Model head = small::head();
+    const head::FaceFrame face = head::find_face(head);
     glm::dvec3 last(0);
     for (int i = 0; i <= 200; ++i) { // 5 cm over cheek and nose, in quarter millimetres
-        const auto seen = passes::first_on_ray(head, {-.025 + i * 2.5e-4, .01, 1}, {0, 0, -1});
+        const auto seen = head::first_on_ray(head, {-.025 + i * 2.5e-4, .01, 1}, {0, 0, -1});
         ASSERT_TRUE(seen);
-        const passes::Anchor anchor = passes::anchor_wound(head, face, seen->at, 60, 0, "wound");
+        const head::Anchor anchor = head::anchor_wound(head, face, seen->at, 60, 0, "wound");
         EXPECT_LT(glm::distance(anchor.centre, seen->at), 1e-9) << "under the pointer";
         EXPECT_LT(i == 0 ? 0 : glm::length(anchor.normal - last), .05) << i;
         last = anchor.normal;
@@ -79,44 +80,44 @@ TEST_F(EditTest, DraggingMovesAWoundWithoutJumps)
 
 TEST(Surface, NearestPointIsOnATriangleAsNearAsAnyOfItsPoints)
 {
-    const engine::Model wall = small::wall({.5f, .4f, .3f});
+    const head::Model wall = small::wall({.5f, .4f, .3f});
     const auto near = [&](double x, double y, double z) {
-        return passes::nearest_on_surface(wall, {x, y, z}).at;
+        return head::nearest_on_surface(wall, {x, y, z}).at;
     };
     EXPECT_LT(glm::distance(near(.013, -.037, .02), glm::dvec3(.013, -.037, 0)), 1e-9);
     EXPECT_LT(glm::distance(near(.5, .5, .1), glm::dvec3(.12, .12, 0)), 1e-7) << "a corner";
     EXPECT_LT(glm::distance(near(.013, -.5, -.1), glm::dvec3(.013, -.12, 0)), 1e-7) << "an edge";
-    EXPECT_FALSE(passes::first_on_ray(wall, {0, 0, -1}, {0, 0, 1})) << "seen from behind";
+    EXPECT_FALSE(head::first_on_ray(wall, {0, 0, -1}, {0, 0, 1})) << "seen from behind";
 }
 
 TEST(CameraMoves, KeepWhatASceneFileMayHold)
 {
-    app::CameraScene camera;
-    camera = app::orbit(camera, 200, 500);
+    scene::Camera camera;
+    camera = demo_command::orbit(camera, 200, 500);
     EXPECT_DOUBLE_EQ(camera.from.azimuth_deg, 218 - 360);
     EXPECT_DOUBLE_EQ(camera.from.elevation_deg, 89);
-    EXPECT_DOUBLE_EQ(app::zoom(camera, 2, .8).distance_m, .4);
-    EXPECT_GT(app::zoom(camera, 1e9, .8).distance_m, 0) << "0 would mean: as far as the head needs";
-    EXPECT_LE(app::pan(camera, 1e6, 0, .8).target_m[0], 1);
+    EXPECT_DOUBLE_EQ(demo_command::zoom(camera, 2, .8).distance_m, .4);
+    EXPECT_GT(demo_command::zoom(camera, 1e9, .8).distance_m, 0) << "0 would mean: as far as the head needs";
+    EXPECT_LE(demo_command::pan(camera, 1e6, 0, .8).target_m[0], 1);
 }
 
 TEST_F(EditTest, PanningMovesTheHeadWithTheMouse)
 {
-    app::Scene scene = small::scene(small::head());
-    const app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
-    const passes::Canvas canvas(scene.size);
-    const app::CameraScene from = scene.camera;
-    const glm::dvec3 middle = stage.camera(from).target;
-    const app::CameraScene moved = app::pan(from, .1, .05, stage.distance(from));
-    const glm::dvec2 at = seen_at(stage, stage.camera(moved), canvas, middle); // picture height: 2
+    scene::Scene scene = small::scene(small::head());
+    const stage::Stage stage(gpu::device(), stage::Stage::prepare(scene));
+    const passes::ViewportTile canvas(scene.size);
+    const scene::Camera from = scene.camera;
+    const glm::dvec3 middle = stage.loaded().camera(from).target;
+    const scene::Camera moved = demo_command::pan(from, .1, .05, stage.loaded().distance(from));
+    const glm::dvec2 at = seen_at(stage, stage.loaded().camera(moved), canvas, middle); // picture height: 2
     EXPECT_NEAR(at.x, .2, 1e-5);
     EXPECT_NEAR(at.y, .1, 1e-5);
 }
 
 TEST(HistoryTest, ADragIsOneStep)
 {
-    app::Scene scene;
-    app::History history(scene);
+    scene::Scene scene;
+    demo_command::History history(scene);
     EXPECT_FALSE(history.can_undo());
     for (int i = 0; i < 20; ++i) {
         scene.wounds[0].roll_deg += 1;
@@ -130,8 +131,8 @@ TEST(HistoryTest, ADragIsOneStep)
     history.edit(scene, "exposure");
     EXPECT_EQ(history.undo().exposure_stops, 0);
     EXPECT_EQ(history.undo().wounds[0].roll_deg, 20);
-    EXPECT_EQ(history.undo(), app::Scene{});
-    EXPECT_EQ(history.undo(), app::Scene{}) << "there is nothing before";
+    EXPECT_EQ(history.undo(), scene::Scene{});
+    EXPECT_EQ(history.undo(), scene::Scene{}) << "there is nothing before";
     EXPECT_EQ(history.redo().wounds[0].roll_deg, 20);
     scene = history.now();
     scene.tissue = "dark";
@@ -142,22 +143,22 @@ TEST(HistoryTest, ADragIsOneStep)
 
 TEST_F(EditTest, TwoSettingsStandSideBySide)
 {
-    const app::Scene scene = small::scene(small::head());
-    app::Scene other = scene;
-    app::make_published(other);
-    app::Stage left(gpu::device(), scene, app::Stage::prepare(scene));
-    app::Stage right = left;
+    const scene::Scene scene = small::scene(small::head());
+    scene::Scene other = scene;
+    scene::make_published(other);
+    stage::Stage left(gpu::device(), stage::Stage::prepare(scene));
+    stage::Stage right = left;
     right.update(other);
     right.settle();
-    engine::Executor executor(gpu::device(), gpu::shaders());
-    const auto single = [&](app::Stage& stage, double day) {
-        engine::Graph graph;
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    const auto single = [&](stage::Stage& stage, double day) {
+        graph::Graph graph;
         graph.readback("picture", stage.declare(graph, day, scene.size).picture);
         return executor.run(graph).mat({0}).clone();
     };
     const auto both = [&](double divider) {
-        engine::Graph graph;
-        graph.readback("picture", app::declare_split(graph, left, 3, right, 9, scene.size, divider));
+        graph::Graph graph;
+        graph.readback("picture", stage::declare_split(graph, left, 3, right, 9, scene.size, divider));
         return executor.run(graph);
     };
     const cv::Mat first = single(left, 3), second = single(right, 9);
@@ -165,7 +166,7 @@ TEST_F(EditTest, TwoSettingsStandSideBySide)
     EXPECT_THAT(ran(both(.25)),
                 testing::AllOf(Contains("forward"), Contains("right forward"), Contains("split")));
     for (const double divider : {0., .3, .6, 1.}) {
-        const engine::FrameResult frame = both(divider);
+        const gpu::FrameResult frame = both(divider);
         EXPECT_THAT(ran(frame), UnorderedElementsAre("split")) << "nothing else has changed";
         const int border = cvRound(divider * first.cols);
         const cv::Range before(0, border), after(border, first.cols);
@@ -178,10 +179,10 @@ TEST_F(EditTest, TwoSettingsStandSideBySide)
 TEST(SavedScene, ReadsBackEqual)
 {
     const TemporaryFolder folder;
-    app::Scene scene;
+    scene::Scene scene;
     scene.head = folder / "heads" / "a.glb";
     scene.tissue = (folder / "tissue.json").string();
-    app::make_published(scene);
+    scene::make_published(scene);
     scene.tissue = "medium";
     scene.wounds[0].photo = "/elsewhere/photo.png";
     scene.wounds[0].segmentation.rect = cv::Rect(1, 2, 30, 40);
@@ -190,15 +191,15 @@ TEST(SavedScene, ReadsBackEqual)
     scene.wounds.push_back({});
     scene.wounds[1].photo = folder / "b.png";
     scene.wounds[1].mask = folder / "mask.png";
-    scene.wounds[1].place = passes::FacePoint{.1, -.2};
+    scene.wounds[1].place = head::FacePoint{.1, -.2};
     scene.camera.target_m = {.01, -.02, 0};
     scene.views = {{"near", scene.camera}, {"left", std::nullopt}};
     scene.shading.ambient = glm::vec3(.1f, .2f, .3f);
     scene.days = {0, .5, 400};
     scene.samples = 4;
     const std::filesystem::path file = folder / "saved.json";
-    app::save_scene(file, scene);
-    EXPECT_EQ(app::read_scene(file), scene);
-    app::save_scene(file, app::Scene{});
-    EXPECT_EQ(app::read_scene(file), app::Scene{});
+    scene::save_scene(file, scene);
+    EXPECT_EQ(scene::read_scene(file), scene);
+    scene::save_scene(file, scene::Scene{});
+    EXPECT_EQ(scene::read_scene(file), scene::Scene{});
 }

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "apps/scene_options.hpp"
+#include "base/input_error.hpp"
+#include "scene/command_line.hpp"
 #include "tests/temporary_folder.hpp"
-#include "wound/input_error.hpp"
 
 namespace {
 
@@ -20,7 +20,7 @@ std::string refusal(Read&& read)
     try {
         read();
         return "accepted";
-    } catch (const cicatrix::InputError& error) {
+    } catch (const base::InputError& error) {
         return error.what();
     }
 }
@@ -28,9 +28,9 @@ std::string refusal(Read&& read)
 class SceneFile : public testing::Test
 {
   protected:
-    app::Scene read(const std::string& text) const
+    scene::Scene read(const std::string& text) const
     {
-        return app::read_scene(folder_.with("scene.json", text));
+        return scene::read_scene(folder_.with("scene.json", text));
     }
     std::string refused(const std::string& text) const
     {
@@ -43,7 +43,7 @@ class SceneFile : public testing::Test
 
 TEST_F(SceneFile, EmptyObjectIsTheDefaultScene)
 {
-    EXPECT_EQ(app::to_json(read("{}")), app::to_json(app::Scene{}));
+    EXPECT_EQ(predict_command::to_json(read("{}")), predict_command::to_json(scene::Scene{}));
 }
 
 TEST_F(SceneFile, AreasGiveAWoundItsCurveAndTheScenesHealingEveryWound)
@@ -51,10 +51,10 @@ TEST_F(SceneFile, AreasGiveAWoundItsCurveAndTheScenesHealingEveryWound)
     folder_.with("areas.csv",
                  "wound,day,area\nold-1,0,20\nold-1,5,12.13\nold-1,20,2.71\nold-2,0,20\nold-2,5,12.13\n"
                  "old-2,20,2.71\nyoung-1,0,20\nyoung-1,5,7.36\nyoung-1,20,.366\n");
-    const auto half = [](const app::WoundScene& wound) { return wound::half_time(wound.healing.curve); };
+    const auto half = [](const scene::Wound& wound) { return wound::half_time(wound.healing.curve); };
     EXPECT_NEAR(half(read(R"({"healing": {"areas": "areas.csv", "series": "mean old"}})").wounds.at(0)), 6.93,
                 .05);
-    const app::Scene scene =
+    const scene::Scene scene =
         read(R"({"healing": {"areas": "areas.csv", "series": "young-1", "model": "contraction"},
         "wounds": [{}, {"healing": {"areas": "areas.csv", "series": "old-1"}}, {"healing": {"model": "face"}}]})");
     EXPECT_NEAR(half(scene.wounds.at(0)), 3.47, .05);
@@ -65,15 +65,16 @@ TEST_F(SceneFile, AreasGiveAWoundItsCurveAndTheScenesHealingEveryWound)
     EXPECT_THAT(refused(R"({"healing": {"areas": "areas.csv", "series": "none"}})"),
                 HasSubstr("mean old, mean"));
     EXPECT_THAT(refused(R"({"healing": {"series": "old-1"}})"), HasSubstr("/healing/series"));
-    EXPECT_THAT(refused(R"({"healing": {"areas": "other.csv"}})"), HasSubstr("other.csv: there is no such file"));
+    EXPECT_THAT(refused(R"({"healing": {"areas": "other.csv"}})"),
+                HasSubstr("other.csv: there is no such file"));
 }
 
 TEST_F(SceneFile, WhatIsWrittenReadsBackAsTheSameScene)
 {
-    app::Scene scene;
+    scene::Scene scene;
     scene.head = folder_ / "head.glb";
     scene.wounds.resize(3);
-    scene.wounds[0].place = passes::FacePoint{0.25, -0.5};
+    scene.wounds[0].place = head::FacePoint{0.25, -0.5};
     scene.wounds[1].place = glm::dvec3(0.01, 0.02, 0.03);
     scene.wounds[1].kind = "avulsion";
     scene.wounds[1].seed = 4294967295u;
@@ -82,8 +83,8 @@ TEST_F(SceneFile, WhatIsWrittenReadsBackAsTheSameScene)
     scene.wounds[1].photo = folder_ / "other.jpg";
     scene.wounds[1].segmentation = {cv::Point(3, 4), cv::Rect(1, 2, 30, 40)};
     scene.wounds[2].healing = {{0.05, 1.2, -0.1, 0}, wound::HealingModel::contraction, 0.3};
-    scene.reflectance_model = wound::Rung::Clamped;
-    scene.shading = app::published_shading();
+    scene.reflectance_model = optics::ReflectanceModel::Clamped;
+    scene.shading = optics::published_shading();
     scene.shading.ambient = glm::vec3(0.25f, 0.5f, 0.75f);
     scene.lights.resize(1);
     scene.lights[0].directional = true;
@@ -93,13 +94,13 @@ TEST_F(SceneFile, WhatIsWrittenReadsBackAsTheSameScene)
     scene.samples = 4;
     scene.exposure_stops = -1.5;
     scene.days = {0, 5, 5, 12.25};
-    const json written = app::to_json(scene);
-    EXPECT_EQ(app::to_json(read(written.dump())), written);
+    const json written = predict_command::to_json(scene);
+    EXPECT_EQ(predict_command::to_json(read(written.dump())), written);
 }
 
 TEST_F(SceneFile, FilesLieBesideTheScene)
 {
-    const app::Scene scene =
+    const scene::Scene scene =
         read(R"({"head": "a.glb", "wounds": [{"photo": "b.jpg", "mask": "/elsewhere/c.png"}]})");
     EXPECT_EQ(scene.head, folder_ / "a.glb");
     EXPECT_EQ(scene.wounds.at(0).photo, folder_ / "b.jpg");
@@ -166,39 +167,39 @@ TEST_F(SceneFile, EachMistakeNamesFileAndField)
 
 TEST_F(SceneFile, ThatDoesNotExistIsNamed)
 {
-    EXPECT_THAT(refusal([&] { app::read_scene(folder_ / "none.json"); }), HasSubstr("none.json"));
-    EXPECT_THAT(refusal([&] { app::read_scene(folder_.path()); }), HasSubstr(folder_.path().string()));
+    EXPECT_THAT(refusal([&] { scene::read_scene(folder_ / "none.json"); }), HasSubstr("none.json"));
+    EXPECT_THAT(refusal([&] { scene::read_scene(folder_.path()); }), HasSubstr(folder_.path().string()));
 }
 
 TEST(Days, AreARangeOrAList)
 {
-    EXPECT_THAT(app::parse_days("0:30:10", "--days"), ElementsAre(0, 10, 20, 30));
-    EXPECT_THAT(app::parse_days("0:1:0.1", "--days"), testing::SizeIs(11));
-    EXPECT_THAT(app::parse_days("4:4:1", "--days"), ElementsAre(4));
-    EXPECT_THAT(app::parse_days("5,5,0.5", "--days"), ElementsAre(5, 5, 0.5));
-    EXPECT_THAT(app::parse_days("3650", "--days"), ElementsAre(3650));
+    EXPECT_THAT(scene::parse_days("0:30:10", "--days"), ElementsAre(0, 10, 20, 30));
+    EXPECT_THAT(scene::parse_days("0:1:0.1", "--days"), testing::SizeIs(11));
+    EXPECT_THAT(scene::parse_days("4:4:1", "--days"), ElementsAre(4));
+    EXPECT_THAT(scene::parse_days("5,5,0.5", "--days"), ElementsAre(5, 5, 0.5));
+    EXPECT_THAT(scene::parse_days("3650", "--days"), ElementsAre(3650));
 }
 
 TEST(Days, ThatMakeNoSenseAreRefused)
 {
     for (const char* text : {"", ",", "5,", "a", "1,b", "-1", "nan", "inf", "3651", "1e99", "0:30", "0:30:0",
                              "0:30:-1", "30:0:1", "0:3650:1e-9", "1:2:3:4", "0:nan:1", "5 "})
-        EXPECT_THAT(refusal([&] { app::parse_days(text, "--days"); }), HasSubstr("--days: ")) << text;
+        EXPECT_THAT(refusal([&] { scene::parse_days(text, "--days"); }), HasSubstr("--days: ")) << text;
 }
 
 TEST(PictureSize, IsWidthByHeight)
 {
-    EXPECT_THAT(app::parse_size("1280x720", "--size"), ElementsAre(1280, 720));
-    EXPECT_THAT(app::parse_size("16x16384", "--size"), ElementsAre(16, 16384));
+    EXPECT_THAT(scene::parse_size("1280x720", "--size"), ElementsAre(1280, 720));
+    EXPECT_THAT(scene::parse_size("16x16384", "--size"), ElementsAre(16, 16384));
     for (const char* text : {"", "x", "640", "640x", "x480", "0x0", "15x16", "100000x100000", "-64x64",
                              "64x-64", "64X64", "64x64x64", "64.5x64", " 64x64", "99999999999x64", "nanxnan"})
-        EXPECT_THAT(refusal([&] { app::parse_size(text, "--size"); }), HasSubstr("--size: ")) << text;
+        EXPECT_THAT(refusal([&] { scene::parse_size(text, "--size"); }), HasSubstr("--size: ")) << text;
 }
 
 TEST(SceneOptions, OverrideTheScene)
 {
     const TemporaryFolder folder;
-    app::SceneOptions options;
+    scene::SceneOptions options;
     options.scene = folder.with("scene.json", R"({"wounds": [], "days": [1], "size": "64x64"})").string();
     options.head = "other.glb";
     options.wound = "photo.png";
@@ -206,7 +207,7 @@ TEST(SceneOptions, OverrideTheScene)
     options.days = "0,5";
     options.size = "128x96";
     options.msaa = true;
-    const app::Scene scene = app::chosen_scene(options);
+    const scene::Scene scene = scene::chosen_scene(options);
     EXPECT_EQ(scene.head, "other.glb");
     ASSERT_EQ(scene.wounds.size(), 1u);
     EXPECT_EQ(scene.wounds[0].photo, "photo.png");
@@ -218,13 +219,13 @@ TEST(SceneOptions, OverrideTheScene)
 
 TEST(SceneOptions, PublishedModeIsThePapersInEveryPart)
 {
-    app::SceneOptions options;
+    scene::SceneOptions options;
     options.mode = "published";
-    const app::Scene scene = app::chosen_scene(options);
-    EXPECT_EQ(scene.shading.model.ward, wound::WardModel::Published);
-    EXPECT_EQ(scene.shading.model.translucency, wound::TranslucencyModel::Published);
-    EXPECT_EQ(scene.shading.blend, wound::BlendModel::Published);
-    EXPECT_EQ(scene.reflectance_model, wound::Rung::Published);
+    const scene::Scene scene = scene::chosen_scene(options);
+    EXPECT_EQ(scene.shading.ward_model, optics::WardModel::Published);
+    EXPECT_EQ(scene.shading.translucency_model, optics::TranslucencyModel::Published);
+    EXPECT_EQ(scene.shading.blend_model, optics::BlendModel::Published);
+    EXPECT_EQ(scene.reflectance_model, optics::ReflectanceModel::Published);
     EXPECT_EQ(scene.wounds.at(0).healing.model, wound::HealingModel::contraction);
     ASSERT_EQ(scene.lights.size(), 1u);
     EXPECT_FALSE(scene.lights[0].falloff);
@@ -232,25 +233,26 @@ TEST(SceneOptions, PublishedModeIsThePapersInEveryPart)
 
 TEST(SceneOptions, MaskWithoutAPhotoIsRefused)
 {
-    app::SceneOptions options;
+    scene::SceneOptions options;
     options.mask = "mask.png";
-    EXPECT_THAT(refusal([&] { app::chosen_scene(options); }), HasSubstr("--mask"));
+    EXPECT_THAT(refusal([&] { scene::chosen_scene(options); }), HasSubstr("--mask"));
 }
 
 TEST(SceneOptions, HintsReplaceTheScenesMask)
 {
     const TemporaryFolder folder;
-    app::SceneOptions options;
+    scene::SceneOptions options;
     options.scene =
         folder.with("scene.json", R"({"wounds": [{"photo": "p.png", "mask": "m.png"}]})").string();
     options.hints.rect = {1, 2, 30, 40};
-    const app::WoundScene wound = app::chosen_scene(options).wounds.at(0);
+    const scene::Wound wound = scene::chosen_scene(options).wounds.at(0);
     EXPECT_EQ(wound.photo, folder / "p.png");
     EXPECT_EQ(wound.mask, "");
     EXPECT_EQ(wound.segmentation.rect, cv::Rect(1, 2, 30, 40));
     options.mask = "mask.png";
-    EXPECT_THAT(refusal([&] { app::chosen_scene(options); }), AllOf(HasSubstr("--rect"), HasSubstr("mask")));
+    EXPECT_THAT(refusal([&] { scene::chosen_scene(options); }),
+                AllOf(HasSubstr("--rect"), HasSubstr("mask")));
     options = {};
     options.hints.seed = {3, 4};
-    EXPECT_THAT(refusal([&] { app::chosen_scene(options); }), HasSubstr("--wound"));
+    EXPECT_THAT(refusal([&] { scene::chosen_scene(options); }), HasSubstr("--wound"));
 }

@@ -1,12 +1,12 @@
 // Segmentation of drawn photographs whose masks are known, hints, and masks given by the user.
-#include "wound/segmentation.hpp"
+#include "wound/photo/segmentation.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "base/input_error.hpp"
 #include "tests/wound_photographs.hpp"
-#include "wound/input_error.hpp"
 
 namespace {
 
@@ -19,7 +19,7 @@ std::string refusal(Action action)
 {
     try {
         action();
-    } catch (const cicatrix::InputError& error) {
+    } catch (const base::InputError& error) {
         return error.what();
     }
     return "";

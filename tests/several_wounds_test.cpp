@@ -3,13 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/stage.hpp"
-#include "engine/image_io.hpp"
+#include "base/image_io.hpp"
+#include "base/input_error.hpp"
+#include "stage/stage.hpp"
 #include "tests/gpu.hpp"
 #include "tests/small_head.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/wound_photographs.hpp"
-#include "wound/input_error.hpp"
 
 namespace {
 
@@ -26,7 +26,7 @@ struct Disc
 class SeveralWounds : public gpu::Test
 {
   protected:
-    app::WoundScene wound_of(const std::vector<Disc>& discs)
+    scene::Wound wound_of(const std::vector<Disc>& discs)
     {
         auto photo = testing_wounds::photograph({300, 300}, {0, 0}, [&](double x, double y) {
             double least = 2;
@@ -35,19 +35,19 @@ class SeveralWounds : public gpu::Test
             return least;
         });
         const std::string suffix = fmt::format("{}.png", ++count_);
-        app::WoundScene wound;
+        scene::Wound wound;
         wound.photo = folder_ / ("photo" + suffix);
         wound.mask = folder_ / ("mask" + suffix);
-        engine::write_png(wound.photo, photo.srgb);
-        engine::write_png(wound.mask, photo.mask);
+        base::write_png(wound.photo, photo.srgb);
+        base::write_png(wound.mask, photo.mask);
         return wound;
     }
-    static std::string refusal(const app::Scene& scene)
+    static std::string refusal(const scene::Scene& scene)
     {
         try {
-            const app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
+            const stage::Stage stage(gpu::device(), stage::Stage::prepare(scene));
             return "accepted";
-        } catch (const cicatrix::InputError& error) {
+        } catch (const base::InputError& error) {
             return error.what();
         }
     }
@@ -60,15 +60,15 @@ class SeveralWounds : public gpu::Test
 
 TEST_F(SeveralWounds, LieOnTheHeadAsInThePhotograph)
 {
-    app::Scene scene = small::scene(small::wall({.55F, .36F, .27F}));
-    scene.wounds = {app::WoundScene{}, wound_of({{{110, 150}, 30}, {{200, 150}, 15}, {{110, 60}, 12}})};
+    scene::Scene scene = small::scene(small::wall({.55F, .36F, .27F}));
+    scene.wounds = {scene::Wound{}, wound_of({{{110, 150}, 30}, {{200, 150}, 15}, {{110, 60}, 12}})};
     scene.wounds[0].place = glm::dvec3(0, .09, 0);
     scene.wounds[1].place = glm::dvec3(0);
     scene.wounds[1].width_mm = 20; // 59 pixels
     scene.wounds[1].roll_deg = 30;
-    const app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
+    const stage::Stage stage(gpu::device(), stage::Stage::prepare(scene));
     EXPECT_THAT(stage.scene_wounds(), testing::ElementsAre(0, 1, 1, 1));
-    const std::vector<passes::Anchor>& anchors = stage.anchors();
+    const std::vector<head::Anchor>& anchors = stage.loaded().anchors();
     ASSERT_EQ(anchors.size(), 4U);
 
     const double mm = 20. / 59, turn = glm::radians(30.);
@@ -88,24 +88,24 @@ TEST_F(SeveralWounds, LieOnTheHeadAsInThePhotograph)
 
 TEST_F(SeveralWounds, AreFoundWithoutAMask)
 {
-    app::Scene scene = small::scene(small::wall({.55F, .36F, .27F}));
+    scene::Scene scene = small::scene(small::wall({.55F, .36F, .27F}));
     scene.wounds = {wound_of({{{110, 150}, 30}, {{200, 150}, 15}})};
     scene.wounds[0].place = glm::dvec3(0);
     scene.wounds[0].mask.clear();
-    const app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
-    ASSERT_EQ(stage.anchors().size(), 2U);
-    EXPECT_NEAR(stage.anchors()[1].centre.x, 1e-3 * 90 * scene.wounds[0].width_mm / 59, 5e-4);
+    const stage::Stage stage(gpu::device(), stage::Stage::prepare(scene));
+    ASSERT_EQ(stage.loaded().anchors().size(), 2U);
+    EXPECT_NEAR(stage.loaded().wounds[1].anchor.centre.x, 1e-3 * 90 * scene.wounds[0].width_mm / 59, 5e-4);
 }
 
 TEST_F(SeveralWounds, FollowTheHeadsSurface)
 {
-    app::Scene scene = small::scene(small::head());
+    scene::Scene scene = small::scene(small::head());
     scene.wounds = {wound_of({{{110, 150}, 40}, {{200, 150}, 25}})};
-    scene.wounds[0].place = passes::FacePoint{.2, -.1};
-    const app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
-    const std::vector<passes::Anchor>& anchors = stage.anchors();
+    scene.wounds[0].place = head::FacePoint{.2, -.1};
+    const stage::Stage stage(gpu::device(), stage::Stage::prepare(scene));
+    const std::vector<head::Anchor>& anchors = stage.loaded().anchors();
     ASSERT_EQ(anchors.size(), 2U);
-    const passes::Anchor &first = anchors[0], &second = anchors[1];
+    const head::Anchor &first = anchors[0], &second = anchors[1];
     EXPECT_GT(second.centre.x, first.centre.x + .015) << "further round the head";
     EXPECT_LT(second.centre.z, first.centre.z - .002);
     EXPECT_GT(second.normal.x, first.normal.x + .05);
@@ -117,16 +117,18 @@ TEST_F(SeveralWounds, FollowTheHeadsSurface)
 
 TEST_F(SeveralWounds, AreAllSeenEachAtItsPlace)
 {
-    app::Scene scene = small::scene(small::wall({.55F, .36F, .27F}));
+    scene::Scene scene = small::scene(small::wall({.55F, .36F, .27F}));
     scene.wounds = {wound_of({{{110, 150}, 30}, {{200, 150}, 15}})};
     scene.wounds[0].place = glm::dvec3(0);
-    const app::Stage stage(gpu::device(), scene, app::Stage::prepare(scene));
+    const stage::Stage stage(gpu::device(), stage::Stage::prepare(scene));
     const auto redness = [&](double x_m) { // at a point of the wall, on day 0
-        engine::Graph graph;
-        const passes::Camera camera{{x_m, 0, .5}, {x_m, 0, 0}, 1};
-        const engine::ReadbackId back = graph.readback(
-            "picture", stage.declare(graph, stage.wounds_on(0), camera, scene.shading, scene.size).picture);
-        engine::Executor executor(gpu::device(), gpu::shaders());
+        graph::Graph graph;
+        const head::Camera camera{{x_m, 0, .5}, {x_m, 0, 0}, 1};
+        const graph::ReadbackId back = graph.readback(
+            "picture",
+            stage.declare(graph, {.day = 0, .tile = scene.size, .camera = camera, .shading = scene.shading})
+                .images.picture);
+        gpu::Executor executor(gpu::device(), gpu::shaders());
         const cv::Scalar mean = cv::mean(executor.run(graph).mat(back));
         return mean[0] / std::max(mean[1], 1.);
     };
@@ -139,7 +141,7 @@ TEST_F(SeveralWounds, AreAllSeenEachAtItsPlace)
 
 TEST_F(SeveralWounds, BeyondWhatASceneHoldsAreRefused)
 {
-    app::Scene scene = small::scene(small::wall({.55F, .36F, .27F}));
+    scene::Scene scene = small::scene(small::wall({.55F, .36F, .27F}));
     std::vector<Disc> discs;
     for (int i = 0; i < 8; ++i)
         discs.push_back({{40 + 70 * (i % 4), 60 + 100 * (i / 4)}, 14});
@@ -158,14 +160,14 @@ TEST_F(SeveralWounds, BeyondWhatASceneHoldsAreRefused)
 
 TEST_F(SeveralWounds, HintsOfASceneReachTheSegmentation)
 {
-    app::Scene scene = small::scene(small::wall({.55F, .36F, .27F}));
+    scene::Scene scene = small::scene(small::wall({.55F, .36F, .27F}));
     scene.wounds = {wound_of({{{90, 150}, 30}, {{220, 150}, 30}})};
-    app::WoundScene& wound = scene.wounds[0];
+    scene::Wound& wound = scene.wounds[0];
     wound.place = glm::dvec3(0);
     wound.mask.clear();
     for (const int x : {90, 220}) {
         wound.segmentation.rect = cv::Rect(x - 40, 110, 80, 80);
-        const auto fits = app::Stage::prepare(scene).wounds();
+        const auto fits = stage::Stage::prepare(scene).wounds();
         ASSERT_EQ(fits[0]->wounds.size(), 1U);
         EXPECT_NEAR(fits[0]->wounds[0].prepared.photo_center.x, x, 3);
     }

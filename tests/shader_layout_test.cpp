@@ -90,7 +90,7 @@ TEST(ShaderLayout, Wound)
 {
     gpu::expect_layout("wound_texture.comp", "WarpHeader", sizeof(WarpHeader),
                        {CICATRIX_MEMBER(WarpHeader, center), CICATRIX_MEMBER(WarpHeader, scale),
-                        CICATRIX_MEMBER(WarpHeader, grid_epsilon), CICATRIX_MEMBER(WarpHeader, rung),
+                        CICATRIX_MEMBER(WarpHeader, grid_epsilon), CICATRIX_MEMBER(WarpHeader, model),
                         CICATRIX_MEMBER(WarpHeader, first), CICATRIX_MEMBER(WarpHeader, count),
                         CICATRIX_MEMBER(WarpHeader, steps)});
     gpu::expect_layout("wound_texture.comp", "BedPhase", sizeof(BedPhase),

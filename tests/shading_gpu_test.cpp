@@ -20,15 +20,15 @@ std::vector<glm::vec3> evaluate(const std::vector<ShadingCase>& cases)
 {
     constexpr std::uint32_t width = 1024;
     const std::uint32_t height = static_cast<std::uint32_t>((cases.size() + width - 1) / width);
-    engine::Graph graph;
-    const engine::ImageId results = graph.image("results", {width, height, VK_FORMAT_R32G32B32A32_SFLOAT});
-    engine::ComputePass& pass = graph.compute("shading test", "shading_test.comp");
+    graph::Graph graph;
+    const graph::ImageId results = graph.image("results", {width, height, VK_FORMAT_R32G32B32A32_SFLOAT});
+    graph::ComputePass& pass = graph.compute("shading test", "shading_test.comp");
     pass.buffer<ShadingCase>("CaseBlock", cases);
     pass.store("results", results);
     pass.dispatch(width, height);
-    const engine::ReadbackId back = graph.readback("results", results);
-    engine::Executor executor(gpu::device(), gpu::shaders());
-    const engine::FrameResult frame = executor.run(graph);
+    const graph::ReadbackId back = graph.readback("results", results);
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    const gpu::FrameResult frame = executor.run(graph);
     const cv::Mat4f values = frame.mat(back);
     std::vector<glm::vec3> out;
     for (std::size_t n = 0; n < cases.size(); ++n) {
@@ -91,13 +91,13 @@ TEST_F(ShadingOnGpu, WardEqualsTheReferenceUpToTheRoundingOfItsHalfVector)
         const cv::Vec3d i = to_double(c.a), o = to_double(c.b);
         const double ax = c.params.slope.x, ay = c.params.slope.y, value = values[n].x;
         ASSERT_TRUE(is_color(values[n])) << value << " in case " << n;
-        const auto model = static_cast<wound::WardModel>(c.model);
-        const double reference = wound::ward(model, ax, ay, i, o) * std::max(0.0, i[2]);
+        const auto model = static_cast<optics::WardModel>(c.model);
+        const double reference = optics::ward(model, ax, ay, i, o) * std::max(0.0, i[2]);
 
         const double wide = 1e9; // a lobe so wide that only what stands before it is left
         const double peak =
-            wound::ward(model, wide, wide, i, o) * std::max(0.0, i[2]) * wide * wide / (ax * ay);
-        const double hz = std::max(i[2], wound::ward_min_cosine) + std::max(o[2], wound::ward_min_cosine);
+            optics::ward(model, wide, wide, i, o) * std::max(0.0, i[2]) * wide * wide / (ax * ay);
+        const double hz = std::max(i[2], optics::ward_min_cosine) + std::max(o[2], optics::ward_min_cosine);
         const double steepness = std::hypot((i[0] + o[0]) / ax, (i[1] + o[1]) / ay) / hz;
         const double slack = step * std::hypot(1 / ax, 1 / ay) / hz;
         const double low = std::exp(-std::pow(steepness + slack, 2));
@@ -139,15 +139,15 @@ TEST_F(ShadingOnGpu, TranslucencyEqualsTheReference)
     for (std::size_t n = 0; n < cases.size(); ++n) {
         const ShadingCase& c = cases[n];
         ASSERT_TRUE(is_color(values[n])) << values[n].x << " in case " << n;
-        wound::Shading shading;
+        optics::Shading shading;
         shading.alpha = c.params.alpha;
         shading.beta = c.params.beta;
         shading.gamma = c.params.gamma;
-        shading.translucency = static_cast<wound::TranslucencyModel>(c.model);
+        shading.translucency = static_cast<optics::TranslucencyModel>(c.model);
         shading.rho_d = 0;
         shading.rho_ts = c.a.x > 0 ? 1.0 / c.a.x : 0; // gives this bound
         const double reference =
-            std::min(wound::translucency(shading, c.number), std::exp2(31.0)); // as far as the shader goes
+            std::min(optics::translucency(shading, c.number), std::exp2(31.0)); // as far as the shader goes
         // log2 is good to 5e-7 near 1, and alpha d + beta to a float step; gamma multiplies both.
         const double relative = 5e-6 + 1e-6 * c.params.gamma + 3e-7 * std::abs(std::log2(reference + tiny));
         EXPECT_NEAR(values[n].x, reference, relative * reference + 2e-9) << "case " << n;
@@ -175,8 +175,8 @@ TEST_F(ShadingOnGpu, BlendEqualsTheReferenceAndIsExactAtItsEnds)
     const std::vector<glm::vec3> values = evaluate(cases);
     for (std::size_t n = 0; n < cases.size(); ++n) {
         const ShadingCase& c = cases[n];
-        const cv::Vec3d reference = wound::blend(static_cast<wound::BlendModel>(c.model), to_double(c.a),
-                                                 to_double(c.b), to_double(c.c), c.number);
+        const cv::Vec3d reference = optics::blend(static_cast<optics::BlendModel>(c.model), to_double(c.a),
+                                                  to_double(c.b), to_double(c.c), c.number);
         EXPECT_LT(max_difference(values[n], reference), 1e-6) << "r = " << c.number;
         EXPECT_TRUE(is_color(values[n]));
         if (c.number <= 0) {
@@ -208,8 +208,8 @@ TEST_F(ShadingOnGpu, ColorCurvesEqualTheReference)
         for (int k = 0; k < 3; ++k) {
             const double x = cases[n].a[k];
             const double reference =
-                cases[n].formula == shared::FORMULA_SRGB_FROM_LINEAR   ? wound::srgb_from_linear(x)
-                : cases[n].formula == shared::FORMULA_LINEAR_FROM_SRGB ? wound::linear_from_srgb(x)
+                cases[n].formula == shared::FORMULA_SRGB_FROM_LINEAR   ? base::srgb_from_linear(x)
+                : cases[n].formula == shared::FORMULA_LINEAR_FROM_SRGB ? base::linear_from_srgb(x)
                                                                        : shoulder(x);
             EXPECT_NEAR(values[n][k], reference, 2e-6) << "formula " << cases[n].formula << " of " << x;
             EXPECT_LE(values[n][k], 1);
@@ -276,18 +276,18 @@ TEST_F(ShadingOnGpu, WholeEquationEqualsTheReference)
     std::vector<ShadingCase> cases;
     std::vector<cv::Vec3d> references;
     for (int n = 0; n < 3000; ++n) {
-        wound::Shading shading;
+        optics::Shading shading;
         shading.alpha_x = 0.1 + unit(random);
         shading.alpha_y = 0.1 + unit(random);
-        shading.ward = static_cast<wound::WardModel>(n % 3);
-        shading.translucency = static_cast<wound::TranslucencyModel>(n / 3 % 2);
-        wound::Light light;
-        light.kind = static_cast<wound::LightKind>(n / 6 % 3);
+        shading.ward = static_cast<optics::WardModel>(n % 3);
+        shading.translucency = static_cast<optics::TranslucencyModel>(n / 3 % 2);
+        optics::Light light;
+        light.kind = static_cast<optics::LightKind>(n / 6 % 3);
         light.position = {2 * unit(random) - 1, 2 * unit(random) - 1, unit(random)};
         light.direction = cv::normalize(light.position);
         light.strength = {unit(random), 2 * unit(random), 3 * unit(random)};
         light.reference_distance_m = 0.2 + unit(random);
-        light.translucency_distance = wound::paper_distance(0.2, light.reference_distance_m);
+        light.translucency_distance = optics::paper_distance(0.2, light.reference_distance_m);
 
         ShadingCase c{};
         c.formula = shared::FORMULA_SHADE;
@@ -301,11 +301,11 @@ TEST_F(ShadingOnGpu, WholeEquationEqualsTheReference)
         c.light = passes::lighting(std::span(&light, 1)).light[0];
         cases.push_back(c);
 
-        wound::SurfacePoint point;
+        optics::SurfacePoint point;
         point.position = to_double(c.a);
         point.to_viewer = to_double(c.b);
         point.albedo = to_double(c.c);
-        references.push_back(wound::shade(shading, light, point, c.number));
+        references.push_back(optics::shade(shading, light, point, c.number));
     }
     const std::vector<glm::vec3> values = evaluate(cases);
     for (std::size_t n = 0; n < cases.size(); ++n) {
@@ -333,9 +333,9 @@ TEST_F(ShadingOnGpu, NoLightNearNoFarNoneInsideTheSkinGivesAnythingButAColor)
                         c.number = 1;
                         c.b = direction(z, 3);
                         c.c = glm::vec3(1);
-                        c.params = passes::shading_params(wound::Shading{}, {});
+                        c.params = passes::shading_params(optics::Shading{}, {});
                         c.params.slope = glm::vec2(slope, 1e-4f);
-                        c.light = passes::lighting(std::vector<wound::Light>(1)).light[0];
+                        c.light = passes::lighting(std::vector<optics::Light>(1)).light[0];
                         c.light.kind = kind;
                         c.light.position = place;
                         c.light.strength = glm::vec3(1e4f);

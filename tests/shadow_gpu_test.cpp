@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "engine/mesh_buffer.hpp"
+#include "engine/gpu/mesh_buffer.hpp"
 #include "passes/shadow.hpp"
 #include "tests/gpu.hpp"
 #include "tests/layout.hpp"
@@ -16,7 +16,7 @@ struct Receiver
 
 struct Scene
 {
-    std::vector<engine::Vertex> vertices;
+    std::vector<head::Vertex> vertices;
     std::vector<std::uint32_t> indices;
     glm::vec3 min{-0.1f}, max{0.1f};
 
@@ -48,9 +48,9 @@ struct Scene
     }
 };
 
-wound::Light light_at(const glm::vec3& position)
+optics::Light light_at(const glm::vec3& position)
 {
-    wound::Light light;
+    optics::Light light;
     light.position = {position.x, position.y, position.z};
     return light;
 }
@@ -58,12 +58,12 @@ wound::Light light_at(const glm::vec3& position)
 // One frame: the shadow's depth and, when there are receivers, their visibility.
 struct Frame
 {
-    engine::FrameResult result;
+    gpu::FrameResult result;
     std::vector<float> visibility;
 };
 
-Frame render(engine::Executor& executor, const Scene& scene, const engine::MeshBuffer& mesh,
-             const wound::Light& light, std::vector<Receiver> receivers)
+Frame render(gpu::Executor& executor, const Scene& scene, const gpu::MeshBuffer& mesh,
+             const optics::Light& light, std::vector<Receiver> receivers)
 {
     const glm::vec3 position(glm::dvec3(light.position[0], light.position[1], light.position[2]));
     for (Receiver& r : receivers)
@@ -72,32 +72,32 @@ Frame render(engine::Executor& executor, const Scene& scene, const engine::MeshB
     if (!shadow)
         throw std::logic_error("the light casts no shadow");
 
-    const engine::Primitive whole{0, static_cast<std::uint32_t>(scene.indices.size()), 0};
-    engine::Graph graph;
-    const engine::ImageId depth = passes::add_shadow(graph, *shadow, mesh, std::span(&whole, 1));
+    const head::Primitive whole{0, static_cast<std::uint32_t>(scene.indices.size()), 0};
+    graph::Graph graph;
+    const graph::ImageId depth = passes::add_shadow(graph, *shadow, mesh, std::span(&whole, 1));
     if (receivers.empty())
         return {executor.run(graph), {}};
 
     const auto count = static_cast<std::uint32_t>(receivers.size());
-    const engine::ImageId visibility = graph.image("visibility", {count, 1, VK_FORMAT_R32_SFLOAT});
-    engine::ComputePass& pass = graph.compute("receive", "shadow_test.comp");
+    const graph::ImageId visibility = graph.image("visibility", {count, 1, VK_FORMAT_R32_SFLOAT});
+    graph::ComputePass& pass = graph.compute("receive", "shadow_test.comp");
     pass.buffer<Receiver>("ReceiverBlock", receivers);
     pass.uniform("ShadowBlock", *shadow);
-    pass.sample("shadow_depth", depth, engine::Sampler::NearestClamp);
+    pass.sample("shadow_depth", depth, graph::Sampler::NearestClamp);
     pass.store("visibility", visibility);
     pass.dispatch(count, 1);
-    const engine::ReadbackId back = graph.readback("visibility", visibility);
-    engine::FrameResult result = executor.run(graph);
+    const graph::ReadbackId back = graph.readback("visibility", visibility);
+    gpu::FrameResult result = executor.run(graph);
     const cv::Mat1f values = result.mat(back);
     const std::vector<float> lit(values.begin(), values.end());
     return {std::move(result), lit};
 }
 
-std::vector<float> visibilities(const Scene& scene, const wound::Light& light,
+std::vector<float> visibilities(const Scene& scene, const optics::Light& light,
                                 const std::vector<Receiver>& receivers)
 {
-    const engine::MeshBuffer mesh(gpu::device(), scene.vertices, scene.indices, "scene");
-    engine::Executor executor(gpu::device(), gpu::shaders());
+    const gpu::MeshBuffer mesh(gpu::device(), scene.vertices, scene.indices, "scene");
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     return render(executor, scene, mesh, light, receivers).visibility;
 }
 
@@ -135,7 +135,7 @@ TEST_F(ShadowOnGpu, PlateDarkensTheFloorWhereGeometrySaysAndNowhereElse)
 TEST_F(ShadowOnGpu, EdgesAreStraightRampsThreeTexelsWide)
 {
     const Scene scene = floor_under_a_plate();
-    const wound::Light light = light_at({0, 0, 0.55f});
+    const optics::Light light = light_at({0, 0, 0.55f});
     const float texel = passes::fit_shadow(light, scene.min, scene.max)->texel * 0.6f; // on the floor
     const float step = texel / 10;
     for (const glm::vec3& outward :
@@ -165,7 +165,7 @@ TEST_F(ShadowOnGpu, NoSurfaceShadowsItself)
     std::vector<Receiver> receivers;
     const glm::vec3 light(0.2f, 0.4f, 0.5f);
     for (std::size_t n = 0; n < ball.vertices.size(); ++n) {
-        const engine::Vertex& v = ball.vertices[n];
+        const head::Vertex& v = ball.vertices[n];
         if (glm::dot(v.normal, glm::normalize(light - v.position)) > 0.1f)
             receivers.push_back({v.position, v.normal, {}});
     }
@@ -180,7 +180,7 @@ TEST_F(ShadowOnGpu, FarSideOfABallIsDark)
     ball.ball(0.1f);
     std::vector<Receiver> receivers;
     const glm::vec3 light(0.2f, 0.4f, 0.5f);
-    for (const engine::Vertex& v : ball.vertices)
+    for (const head::Vertex& v : ball.vertices)
         if (glm::dot(v.normal, glm::normalize(light - v.position)) <
             -0.3f) // just past the terminator Lambert is 0 anyway
             receivers.push_back({v.position, v.normal, {}});
@@ -201,16 +201,16 @@ TEST_F(ShadowOnGpu, OutsideTheLightsPictureAllIsLit)
 TEST_F(ShadowOnGpu, RunsOnlyWhenTheLightMovesAndSomebodyLooks)
 {
     const Scene scene = floor_under_a_plate();
-    const engine::MeshBuffer mesh(gpu::device(), scene.vertices, scene.indices, "scene");
-    engine::Executor executor(gpu::device(), gpu::shaders());
-    const auto state = [&](const wound::Light& light, const std::vector<Receiver>& receivers) {
+    const gpu::MeshBuffer mesh(gpu::device(), scene.vertices, scene.indices, "scene");
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    const auto state = [&](const optics::Light& light, const std::vector<Receiver>& receivers) {
         return render(executor, scene, mesh, light, receivers).result.pass("shadow").state;
     };
     const Receiver here{{0, 0, -0.05f}, {0, 0, 1}, {}}, there{{0.08f, 0, -0.05f}, {0, 0, 1}, {}};
-    EXPECT_EQ(state(light_at({0, 0, 0.55f}), {here}), engine::PassState::Run);
-    EXPECT_EQ(state(light_at({0, 0, 0.55f}), {there}), engine::PassState::Skipped);
-    EXPECT_EQ(state(light_at({0.1f, 0, 0.55f}), {there}), engine::PassState::Run);
-    EXPECT_EQ(state(light_at({0.1f, 0, 0.55f}), {}), engine::PassState::Culled);
+    EXPECT_EQ(state(light_at({0, 0, 0.55f}), {here}), graph::PassState::Run);
+    EXPECT_EQ(state(light_at({0, 0, 0.55f}), {there}), graph::PassState::Skipped);
+    EXPECT_EQ(state(light_at({0.1f, 0, 0.55f}), {there}), graph::PassState::Run);
+    EXPECT_EQ(state(light_at({0.1f, 0, 0.55f}), {}), graph::PassState::Culled);
 }
 
 TEST_F(ShadowOnGpu, SharedStructLiesAlikeInBothLanguages)

@@ -6,17 +6,17 @@ namespace {
 
 const glm::vec3 head_min(-0.09f, -0.14f, -0.11f), head_max(0.09f, 0.12f, 0.12f);
 
-wound::Light point_light(double x, double y, double z)
+optics::Light point_light(double x, double y, double z)
 {
-    wound::Light light;
+    optics::Light light;
     light.position = {x, y, z};
     return light;
 }
 
-wound::Light parallel_light(const cv::Vec3d& towards)
+optics::Light parallel_light(const cv::Vec3d& towards)
 {
-    wound::Light light;
-    light.kind = wound::LightKind::Directional;
+    optics::Light light;
+    light.kind = optics::LightKind::Directional;
     light.direction = cv::normalize(towards);
     return light;
 }
@@ -27,7 +27,7 @@ glm::vec3 seen(const shared::Shadow& shadow, const glm::vec3& point)
     return glm::vec3(clip) / clip.w;
 }
 
-const std::vector<wound::Light> lights = {
+const std::vector<optics::Light> lights = {
     point_light(0.3, 0.4, 0.6), point_light(0, 2, 0),    point_light(0, -1, 0.001),
     point_light(-20, 3, 5),     point_light(0.25, 0, 0), parallel_light({0.3, 0.5, 0.8}),
     parallel_light({0, 1, 0}),
@@ -37,7 +37,7 @@ const std::vector<wound::Light> lights = {
 
 TEST(Shadow, FrustumHoldsTheWholeBoxAndWastesLittle)
 {
-    for (const wound::Light& light : lights) {
+    for (const optics::Light& light : lights) {
         const auto shadow = passes::fit_shadow(light, head_min, head_max);
         ASSERT_TRUE(shadow);
         float widest = 0;
@@ -64,7 +64,7 @@ TEST(Shadow, NearerTheLightIsLessDeepAndUpIsUp)
 
 TEST(Shadow, TexelIsItsWidthInMetres)
 {
-    for (const wound::Light& light : {point_light(0, 0, 0.7), parallel_light({0, 0, 1})}) {
+    for (const optics::Light& light : {point_light(0, 0, 0.7), parallel_light({0, 0, 1})}) {
         const auto shadow = passes::fit_shadow(light, head_min, head_max);
         ASSERT_TRUE(shadow);
         const glm::vec4 clip = shadow->clip_from_world * glm::vec4(0, 0, 0.1f, 1);

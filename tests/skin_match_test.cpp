@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "wound/color.hpp"
+#include "base/color.hpp"
 #include "wound/membrane.hpp"
-#include "wound/noise.hpp"
-#include "wound/synthetic.hpp"
+#include "wound/synthetic/noise.hpp"
+#include "wound/synthetic/synthetic.hpp"
 
 namespace {
 
@@ -154,7 +154,7 @@ TEST(SkinMatch, HasNoStepAlongTheFeather)
                 steepest_opacity =
                     std::max(steepest_opacity, std::abs(result.opacity(y, x) - result.opacity(y, x - 1)));
                 const Vec3f step = composite(result, face, x, y) - composite(result, face, x - 1, y);
-                steepest_color = std::max(steepest_color, std::abs(wound::luminance(step)));
+                steepest_color = std::max(steepest_color, std::abs(base::luminance(step)));
             }
     EXPECT_LT(steepest_opacity, .12f);
     EXPECT_LT(steepest_color, .008f); // the pores of the photo's own skin make steps of .004

@@ -21,7 +21,7 @@ glm::dvec3 skin_at(double u, double v)
     return p;
 }
 
-engine::Vertex vertex_at(double u, double v)
+head::Vertex vertex_at(double u, double v)
 {
     const double step = 1e-5, inside = std::clamp(v, 0.002, 0.998); // at the poles one derivative vanishes
     const glm::dvec3 across = skin_at(u + step, inside) - skin_at(u - step, inside);
@@ -34,7 +34,7 @@ engine::Vertex vertex_at(double u, double v)
 
 /// Triangles of a grid of (columns + 1) x (rows + 1) vertices, row by row from the top left as seen from
 /// outside.
-void add_grid_triangles(engine::Model& model, std::uint32_t columns, std::uint32_t rows)
+void add_grid_triangles(head::Model& model, std::uint32_t columns, std::uint32_t rows)
 {
     for (std::uint32_t j = 0; j < rows; ++j)
         for (std::uint32_t i = 0; i < columns; ++i) {
@@ -42,7 +42,7 @@ void add_grid_triangles(engine::Model& model, std::uint32_t columns, std::uint32
             model.indices.insert(model.indices.end(), {a, below, a + 1, a + 1, below, below + 1});
         }
     model.primitives = {{0, std::uint32_t(model.indices.size()), 0}};
-    engine::update_bounds(model);
+    head::update_bounds(model);
 }
 
 /// Skin with large soft blotches, so that the albedo map is seen to be used.
@@ -71,13 +71,13 @@ cv::Mat3b rippled_normals()
 
 } // namespace
 
-engine::Model head()
+head::Model head()
 {
-    engine::Model model;
+    head::Model model;
     for (std::uint32_t j = 0; j <= rings; ++j)
         for (std::uint32_t i = 0; i <= sectors; ++i)
             model.vertices.push_back(vertex_at(double(i) / sectors, double(j) / rings));
-    engine::Material skin;
+    head::Material skin;
     skin.name = "skin";
     skin.base_color = blotched_skin();
     skin.normal = rippled_normals();
@@ -86,17 +86,17 @@ engine::Model head()
     return model;
 }
 
-engine::Model wall(const glm::vec3& linear_color)
+head::Model wall(const glm::vec3& linear_color)
 {
     constexpr std::uint32_t cells = 16;
-    engine::Model model;
+    head::Model model;
     for (std::uint32_t j = 0; j <= cells; ++j)
         for (std::uint32_t i = 0; i <= cells; ++i) {
             const glm::vec2 uv(float(i) / cells, float(j) / cells);
             model.vertices.push_back(
                 {{0.24f * (uv.x - 0.5f), 0.24f * (0.5f - uv.y), 0}, {0, 0, 1}, {1, 0, 0, 1}, uv});
         }
-    engine::Material skin;
+    head::Material skin;
     skin.name = "skin";
     skin.base_color_factor = glm::vec4(linear_color, 1);
     model.materials = {skin};
@@ -104,18 +104,18 @@ engine::Model wall(const glm::vec3& linear_color)
     return model;
 }
 
-std::filesystem::path saved(const engine::Model& model)
+std::filesystem::path saved(const head::Model& model)
 {
     static const TemporaryFolder folder;
     static int count = 0;
     const std::filesystem::path path = folder / fmt::format("head_{}.glb", ++count);
-    engine::save_model(path, model);
+    head::save_model(path, model);
     return path;
 }
 
-app::Scene scene(const engine::Model& model, std::uint32_t side)
+scene::Scene scene(const head::Model& model, std::uint32_t side)
 {
-    app::Scene scene;
+    scene::Scene scene;
     scene.head = saved(model);
     scene.size = {side, side};
     return scene;

@@ -1,7 +1,7 @@
 // What reflection reads out of compiled shaders, and what
 // comes of shaders that want the wrong things. No device.
-#include "engine/binding_check.hpp"
-#include "engine/device_choice.hpp"
+#include "engine/gpu/device_choice.hpp"
+#include "engine/graph/binding_check.hpp"
 #include "tests/gpu.hpp"
 #include "tests/layout.hpp"
 
@@ -11,7 +11,6 @@
 
 namespace {
 
-using namespace engine;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -33,32 +32,32 @@ struct Everything
     std::uint32_t last;
 };
 
-const ShaderInterface& layout_shader()
+const graph::ShaderInterface& layout_shader()
 {
     return gpu::shaders().find("test_layout.comp")->interface;
 }
 
 TEST(Reflection, FindsBindingsByNameWithTypeCountAndSize)
 {
-    const ShaderInterface& shader = layout_shader();
+    const graph::ShaderInterface& shader = layout_shader();
     EXPECT_EQ(shader.stage, VK_SHADER_STAGE_COMPUTE_BIT);
     EXPECT_THAT(shader.local_size, ElementsAre(16, 4, 1));
     EXPECT_THAT(shader.unsupported, IsEmpty());
     ASSERT_EQ(shader.bindings.size(), 4u);
-    const ShaderBinding* uniform = shader.find_binding("everything");
+    const graph::ShaderBinding* uniform = shader.find_binding("everything");
     ASSERT_TRUE(uniform);
     EXPECT_EQ(uniform->type, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER);
     EXPECT_EQ(uniform->size, sizeof(Everything));
-    const ShaderBinding* points = shader.find_binding("Points");
+    const graph::ShaderBinding* points = shader.find_binding("Points");
     ASSERT_TRUE(points) << "a block without an instance name goes by its own";
     EXPECT_EQ(points->type, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     EXPECT_EQ(points->size, 4u);
     EXPECT_EQ(points->stride, sizeof(Light));
-    const ShaderBinding* maps = shader.find_binding("maps");
+    const graph::ShaderBinding* maps = shader.find_binding("maps");
     ASSERT_TRUE(maps);
     EXPECT_EQ(maps->type, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
     EXPECT_EQ(maps->count, 2u);
-    const ShaderBinding* result = shader.find_binding("result");
+    const graph::ShaderBinding* result = shader.find_binding("result");
     ASSERT_TRUE(result);
     EXPECT_EQ(result->type, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
     EXPECT_EQ(result->format, VK_FORMAT_R8G8B8A8_UNORM);
@@ -66,8 +65,8 @@ TEST(Reflection, FindsBindingsByNameWithTypeCountAndSize)
 
 TEST(Reflection, FindsSpecialisationConstantsWithTheirTypes)
 {
-    using Type = ShaderConstant::Type;
-    const ShaderInterface& shader = layout_shader();
+    using Type = graph::ShaderConstant::Type;
+    const graph::ShaderInterface& shader = layout_shader();
     ASSERT_EQ(shader.constants.size(), 4u);
     EXPECT_EQ(shader.find_constant("on")->type, Type::Bool);
     EXPECT_EQ(shader.find_constant("count")->type, Type::Int);
@@ -78,7 +77,7 @@ TEST(Reflection, FindsSpecialisationConstantsWithTheirTypes)
 
 TEST(Reflection, FindsTheInputsOfAVertexShaderWithoutTheBuiltInOnes)
 {
-    const ShaderInterface& mesh = gpu::shaders().find("test_mesh.vert")->interface;
+    const graph::ShaderInterface& mesh = gpu::shaders().find("test_mesh.vert")->interface;
     ASSERT_EQ(mesh.inputs.size(), 2u);
     EXPECT_EQ(mesh.inputs[0].name, "position");
     EXPECT_EQ(mesh.inputs[0].components, 3u);
@@ -89,11 +88,11 @@ TEST(Reflection, FindsTheInputsOfAVertexShaderWithoutTheBuiltInOnes)
 
 TEST(Reflection, RefusesWhatIsNoModule)
 {
-    EXPECT_THROW(reflect({}), std::logic_error);
-    EXPECT_THROW(reflect(std::vector<std::uint32_t>{1, 2, 3, 4, 5}), std::logic_error);
+    EXPECT_THROW(graph::reflect({}), std::logic_error);
+    EXPECT_THROW(graph::reflect(std::vector<std::uint32_t>{1, 2, 3, 4, 5}), std::logic_error);
     std::vector<std::uint32_t> cut(gpu::shaders().find("test_quad.vert")->words.begin(),
                                    gpu::shaders().find("test_quad.vert")->words.begin() + 8);
-    EXPECT_THROW(reflect(cut), std::logic_error);
+    EXPECT_THROW(graph::reflect(cut), std::logic_error);
 }
 
 TEST(Layout, OfScalarBlocksEqualsThatOfTheCppStructs)
@@ -117,32 +116,32 @@ TEST(Layout, ADifferenceFailsTheTest)
 // ---- What passes give against what shaders want
 // ------------------------------------------------------------------
 
-std::vector<std::string> problems_of(void (*declare)(Graph&))
+std::vector<std::string> problems_of(void (*declare)(graph::Graph&))
 {
-    Graph graph;
+    graph::Graph graph;
     declare(graph);
-    return check_bindings(graph, gpu::shaders());
+    return graph::check_bindings(graph, gpu::shaders());
 }
 
-TEST(Bindings, NoShaderSamplesMoreThanADeviceMustOffer)
+TEST(graph::Bindings, NoShaderSamplesMoreThanADeviceMustOffer)
 {
     std::uint32_t most = 0;
-    for (const EmbeddedShader& shader : embedded_shaders()) {
+    for (const graph::EmbeddedShader& shader : graph::embedded_shaders()) {
         std::uint32_t textures = 0;
-        for (const ShaderBinding& binding : gpu::shaders().find(shader.name)->interface.bindings)
+        for (const graph::ShaderBinding& binding : gpu::shaders().find(shader.name)->interface.bindings)
             if (binding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)
                 textures += binding.count;
-        EXPECT_LE(textures, textures_per_stage) << shader.name;
+        EXPECT_LE(textures, gpu::textures_per_stage) << shader.name;
         most = std::max(most, textures);
     }
-    EXPECT_EQ(most, textures_per_stage) << "devices are refused for no reason";
+    EXPECT_EQ(most, gpu::textures_per_stage) << "devices are refused for no reason";
 }
 
-TEST(Bindings, NothingIsSaidWhenAllIsGiven)
+TEST(graph::Bindings, NothingIsSaidWhenAllIsGiven)
 {
-    EXPECT_THAT(problems_of([](Graph& graph) {
-                    ComputePass& pass = graph.compute("fill", "test_fill.comp");
-                    pass.store("result", ImageId{0});
+    EXPECT_THAT(problems_of([](graph::Graph& graph) {
+                    graph::ComputePass& pass = graph.compute("fill", "test_fill.comp");
+                    pass.store("result", graph::ImageId{0});
                     pass.uniform("params", glm::vec4(1.0f));
                     pass.buffer<glm::vec2>("Offsets", {});
                     pass.constant("gain", 2.0f);
@@ -150,11 +149,11 @@ TEST(Bindings, NothingIsSaidWhenAllIsGiven)
                 IsEmpty());
 }
 
-TEST(Bindings, EveryMistakeIsNamed)
+TEST(graph::Bindings, EveryMistakeIsNamed)
 {
     EXPECT_THAT(
-        problems_of([](Graph& graph) {
-            ComputePass& pass = graph.compute("fill", "test_fill.comp");
+        problems_of([](graph::Graph& graph) {
+            graph::ComputePass& pass = graph.compute("fill", "test_fill.comp");
             pass.uniform("params", 1.0f);
             pass.buffer<float>("Offsets", std::vector{1.0f});
             pass.uniform("speed", 1.0f);
@@ -171,17 +170,17 @@ TEST(Bindings, EveryMistakeIsNamed)
             "pass stem: test_quad is not a compute shader"));
 }
 
-TEST(Bindings, ADrawLooksInItsPassForWhatItIsNotGiven)
+TEST(graph::Bindings, ADrawLooksInItsPassForWhatItIsNotGiven)
 {
-    EXPECT_THAT(problems_of([](Graph& graph) {
-                    RasterPass& pass = graph.raster("show");
-                    pass.sample("source", ImageId{0});
+    EXPECT_THAT(problems_of([](graph::Graph& graph) {
+                    graph::RasterPass& pass = graph.raster("show");
+                    pass.sample("source", graph::ImageId{0});
                     pass.draw("test_quad").uniform("Tint", glm::vec4(1.0f));
                 }),
                 IsEmpty());
-    EXPECT_THAT(problems_of([](Graph& graph) {
-                    RasterPass& pass = graph.raster("show");
-                    pass.sample("source", ImageId{0});
+    EXPECT_THAT(problems_of([](graph::Graph& graph) {
+                    graph::RasterPass& pass = graph.raster("show");
+                    pass.sample("source", graph::ImageId{0});
                     pass.uniform("exposure", 1.0f);
                     pass.draw("test_quad").uniform("tint", glm::vec4(1.0f));
                     pass.draw("test_mesh");
@@ -194,31 +193,31 @@ TEST(Bindings, ADrawLooksInItsPassForWhatItIsNotGiven)
                             "pass show: no shader of its draws knows exposure"));
 }
 
-TEST(Bindings, ImagesMustHaveTheFormatAndNumberTheShaderWrites)
+TEST(graph::Bindings, ImagesMustHaveTheFormatAndNumberTheShaderWrites)
 {
     EXPECT_THAT(
-        problems_of([](Graph& graph) {
-            const ImageDesc desc{8, 8, VK_FORMAT_R16G16B16A16_SFLOAT};
-            ComputePass& fill = graph.compute("fill", "test_fill.comp");
+        problems_of([](graph::Graph& graph) {
+            const graph::ImageDesc desc{8, 8, VK_FORMAT_R16G16B16A16_SFLOAT};
+            graph::ComputePass& fill = graph.compute("fill", "test_fill.comp");
             fill.store("result", graph.image("half", desc));
             fill.uniform("params", glm::vec4(1.0f));
             fill.buffer<glm::vec2>("Offsets", {});
-            RasterPass& show = graph.raster("show");
+            graph::RasterPass& show = graph.raster("show");
             show.color(graph.image("first", desc), {});
             show.color(graph.image("second", desc), {});
-            show.sample("source", ImageId{0});
+            show.sample("source", graph::ImageId{0});
             show.draw("test_quad").uniform("Tint", glm::vec4(1.0f));
         }),
         ElementsAre("pass fill: shader test_fill.comp stores RGBA32F to half, which has another format",
                     "pass show: shader test_quad writes 1 colours, the pass has 2 targets"));
 }
 
-TEST(Bindings, AnArrayOfSamplersWantsEveryElement)
+TEST(graph::Bindings, AnArrayOfSamplersWantsEveryElement)
 {
-    EXPECT_THAT(problems_of([](Graph& graph) {
-                    ComputePass& pass = graph.compute("all", "test_layout.comp");
-                    pass.sample("maps", ImageId{0});
-                    pass.store("result", ImageId{1});
+    EXPECT_THAT(problems_of([](graph::Graph& graph) {
+                    graph::ComputePass& pass = graph.compute("all", "test_layout.comp");
+                    pass.sample("maps", graph::ImageId{0});
+                    pass.store("result", graph::ImageId{1});
                     pass.uniform("everything", Everything{});
                     pass.buffer<std::uint32_t>("Points", std::vector(5, 0u));
                 }),

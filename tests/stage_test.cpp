@@ -3,11 +3,11 @@
 #include <fstream>
 #include <gmock/gmock.h>
 
-#include "apps/stage.hpp"
+#include "base/input_error.hpp"
+#include "stage/stage.hpp"
 #include "tests/gpu.hpp"
 #include "tests/small_head.hpp"
 #include "tests/temporary_folder.hpp"
-#include "wound/input_error.hpp"
 
 namespace {
 
@@ -18,32 +18,32 @@ using testing::UnorderedElementsAre;
 /// A stage drawn as a window draws it.
 struct Window
 {
-    explicit Window(const app::Scene& scene) : stage(gpu::device(), scene, app::Stage::prepare(scene)) {}
+    explicit Window(const scene::Scene& scene) : stage(gpu::device(), stage::Stage::prepare(scene)) {}
 
-    engine::Graph frame(double day = 4)
+    graph::Graph frame(double day = 4)
     {
-        engine::Graph graph;
+        graph::Graph graph;
         graph.readback("picture", stage.declare(graph, day, stage.scene().size).picture);
         return graph;
     }
     std::vector<std::string> ran()
     {
         std::vector<std::string> names;
-        for (const engine::PassResult& pass : executor.run(frame()).passes)
-            if (pass.state == engine::PassState::Run)
+        for (const gpu::PassResult& pass : executor.run(frame()).passes)
+            if (pass.state == graph::PassState::Run)
                 names.push_back(pass.name);
         return names;
     }
     cv::Mat4b picture() { return executor.run(frame()).mat({0}).clone(); }
     bool up_to_date() { return executor.up_to_date(frame()); }
 
-    app::Stage stage;
-    engine::Executor executor{gpu::device(), gpu::shaders()};
+    stage::Stage stage;
+    gpu::Executor executor{gpu::device(), gpu::shaders()};
 };
 
-app::Scene moved(app::Scene scene)
+scene::Scene moved(scene::Scene scene)
 {
-    scene.wounds[0].place = passes::FacePoint{.12, .05};
+    scene.wounds[0].place = head::FacePoint{.12, .05};
     return scene;
 }
 
@@ -72,29 +72,29 @@ TEST_F(StageTest, RunsOnlyWhatADifferenceReaches)
 {
     Window window(small::scene(small::head()));
     window.ran();
-    app::Scene scene = window.stage.scene();
+    scene::Scene scene = window.stage.scene();
     const auto after = [&](const auto& edit) {
         edit(scene);
         window.stage.update(scene);
         EXPECT_FALSE(window.stage.pending());
         return window.ran();
     };
-    EXPECT_THAT(after([](app::Scene& s) { s.camera.from.azimuth_deg += 5; }),
+    EXPECT_THAT(after([](scene::Scene& s) { s.camera.from.azimuth_deg += 5; }),
                 UnorderedElementsAre("forward", "tonemap"));
-    EXPECT_THAT(after([](app::Scene& s) { s.lights[1].intensity *= .5; }),
+    EXPECT_THAT(after([](scene::Scene& s) { s.lights[1].intensity *= .5; }),
                 UnorderedElementsAre("forward", "tonemap"));
-    EXPECT_THAT(after([](app::Scene& s) { s.lights[0].from.azimuth_deg += 5; }),
+    EXPECT_THAT(after([](scene::Scene& s) { s.lights[0].from.azimuth_deg += 5; }),
                 UnorderedElementsAre("shadow", "forward", "tonemap"));
-    EXPECT_THAT(after([](app::Scene& s) { s.exposure_stops = .5; }), UnorderedElementsAre("tonemap"));
-    EXPECT_THAT(after([](app::Scene& s) { s.tissue = "dark"; }),
+    EXPECT_THAT(after([](scene::Scene& s) { s.exposure_stops = .5; }), UnorderedElementsAre("tonemap"));
+    EXPECT_THAT(after([](scene::Scene& s) { s.tissue = "dark"; }),
                 UnorderedElementsAre("reflectance_lut", "forward", "tonemap"));
-    EXPECT_THAT(after([](app::Scene& s) { s.shading.ward = false; }),
+    EXPECT_THAT(after([](scene::Scene& s) { s.shading.ward = false; }),
                 UnorderedElementsAre("forward", "tonemap"));
 }
 
 TEST_F(StageTest, ShowsAMovedWoundAtOnceAndInTheEndAsIfItHadAlwaysBeenThere)
 {
-    const app::Scene scene = small::scene(small::head());
+    const scene::Scene scene = small::scene(small::head());
     Window window(scene);
     const cv::Mat4b before = window.picture();
     window.stage.update(moved(scene));
@@ -103,7 +103,7 @@ TEST_F(StageTest, ShowsAMovedWoundAtOnceAndInTheEndAsIfItHadAlwaysBeenThere)
         << "neither the wound's maps nor the shadow";
     EXPECT_GT(largest_difference(window.picture(), before), 30) << "the wound is elsewhere";
 
-    window.stage.settle();
+    window.stage.wait_until_complete();
     EXPECT_FALSE(window.stage.pending());
     Window fresh(moved(scene));
     EXPECT_EQ(largest_difference(window.picture(), fresh.picture()), 0);
@@ -115,17 +115,17 @@ TEST_F(StageTest, ShowsAMovedWoundAtOnceAndInTheEndAsIfItHadAlwaysBeenThere)
 
 TEST_F(StageTest, ALongDragIsUndoneAtOnceAndEndsAsIfTheWoundHadAlwaysBeenThere)
 {
-    const app::Scene scene = small::scene(small::head());
+    const scene::Scene scene = small::scene(small::head());
     Window window(scene);
     const cv::Mat4b before = window.picture();
-    app::Scene dragged = scene;
-    for (int i = 0; i < 40; ++i) { // more places than a workshop remembers
-        dragged.wounds[0].place = passes::FacePoint{.3 - .005 * i, -.15};
+    scene::Scene dragged = scene;
+    for (int i = 0; i < 40; ++i) { // more places than a loader remembers
+        dragged.wounds[0].place = head::FacePoint{.3 - .005 * i, -.15};
         window.stage.update(dragged, true);
         EXPECT_TRUE(window.stage.pending());
         EXPECT_GT(i % 10 == 0 ? largest_difference(window.picture(), before) : 255, 30) << i;
     }
-    window.stage.settle();
+    window.stage.wait_until_complete();
     Window fresh(dragged);
     EXPECT_EQ(largest_difference(window.picture(), fresh.picture()), 0);
     window.stage.update(scene);
@@ -135,7 +135,7 @@ TEST_F(StageTest, ALongDragIsUndoneAtOnceAndEndsAsIfTheWoundHadAlwaysBeenThere)
 
 TEST_F(StageTest, WidthRollDepthAndHealingEndAsInANewStage)
 {
-    app::Scene scene = small::scene(small::head());
+    scene::Scene scene = small::scene(small::head());
     Window window(scene);
     scene.wounds[0].width_mm = 22;
     scene.wounds[0].roll_deg = 40;
@@ -143,29 +143,29 @@ TEST_F(StageTest, WidthRollDepthAndHealingEndAsInANewStage)
     scene.wounds[0].healing.curve.delta *= 2;
     window.stage.update(scene);
     window.picture();
-    window.stage.settle();
+    window.stage.wait_until_complete();
     Window fresh(scene);
     EXPECT_EQ(largest_difference(window.picture(), fresh.picture()), 0);
 }
 
 TEST_F(StageTest, WoundsComeAndGo)
 {
-    const app::Scene one = small::scene(small::head());
-    app::Scene two = one;
+    const scene::Scene one = small::scene(small::head());
+    scene::Scene two = one;
     two.wounds.push_back({});
     two.wounds[1].place = std::string("forehead");
     two.wounds[1].kind = "laceration";
     Window window(one);
     const cv::Mat4b before = window.picture();
     window.stage.update(two);
-    EXPECT_EQ(window.stage.prepared().size(), 1u) << "the new one is not ready";
+    EXPECT_EQ(window.stage.loaded().wounds.size(), 1u) << "the new one is not ready";
     window.picture();
-    window.stage.settle();
+    window.stage.wait_until_complete();
     EXPECT_THAT(window.stage.scene_wounds(), testing::ElementsAre(0, 1));
     Window fresh(two);
     EXPECT_EQ(largest_difference(window.picture(), fresh.picture()), 0);
 
-    app::Scene other = two;
+    scene::Scene other = two;
     other.wounds.erase(other.wounds.begin());
     window.stage.update(other);
     EXPECT_FALSE(window.stage.pending());
@@ -176,15 +176,15 @@ TEST_F(StageTest, WoundsComeAndGo)
 
 TEST_F(StageTest, AnotherHeadTakesThePlaceOfTheOldOneWhenItIsReady)
 {
-    const app::Scene scene = small::scene(small::head());
-    app::Scene wall = scene;
+    const scene::Scene scene = small::scene(small::head());
+    scene::Scene wall = scene;
     wall.head = small::saved(small::wall({.5f, .4f, .3f}));
     wall.wounds[0].place = glm::dvec3(.01, .02, 0);
     Window window(scene);
     const cv::Mat4b before = window.picture();
     window.stage.update(wall);
     EXPECT_EQ(largest_difference(window.picture(), before), 0) << "the old picture stays";
-    window.stage.settle();
+    window.stage.wait_until_complete();
     Window fresh(wall);
     EXPECT_EQ(largest_difference(window.picture(), fresh.picture()), 0);
 }
@@ -192,20 +192,20 @@ TEST_F(StageTest, AnotherHeadTakesThePlaceOfTheOldOneWhenItIsReady)
 TEST_F(StageTest, ErrorsLeaveItAsItWas)
 {
     const TemporaryFolder folder;
-    const app::Scene good = small::scene(small::head());
+    const scene::Scene good = small::scene(small::head());
     Window window(good);
     const cv::Mat4b before = window.picture();
     std::ofstream(folder / "broken.png") << "no picture";
     std::ofstream(folder / "broken.glb") << "no head";
     std::ofstream(folder / "broken.json") << "{";
     const auto error = [&](const auto& edit) -> std::string {
-        app::Scene bad = good;
+        scene::Scene bad = good;
         bad.lights[0].intensity = 9; // nothing of a refused scene is shown
         edit(bad);
         try {
             window.stage.update(bad);
-            window.stage.settle();
-        } catch (const cicatrix::InputError& refused) {
+            window.stage.wait_until_complete();
+        } catch (const base::InputError& refused) {
             EXPECT_EQ(window.stage.scene(), good);
             EXPECT_FALSE(window.stage.pending());
             EXPECT_EQ(largest_difference(window.picture(), before), 0);
@@ -213,19 +213,19 @@ TEST_F(StageTest, ErrorsLeaveItAsItWas)
         }
         return "accepted";
     };
-    EXPECT_THAT(error([&](app::Scene& s) { s.wounds[0].photo = folder / "broken.png"; }),
+    EXPECT_THAT(error([&](scene::Scene& s) { s.wounds[0].photo = folder / "broken.png"; }),
                 HasSubstr("broken.png"));
-    EXPECT_THAT(error([&](app::Scene& s) { s.wounds[0].photo = folder / "absent.png"; }),
+    EXPECT_THAT(error([&](scene::Scene& s) { s.wounds[0].photo = folder / "absent.png"; }),
                 HasSubstr("absent.png"));
-    EXPECT_THAT(error([&](app::Scene& s) { s.head = folder / "broken.glb"; }), HasSubstr("broken.glb"));
-    EXPECT_THAT(error([&](app::Scene& s) { s.tissue = folder / "broken.json"; }), HasSubstr("broken.json"));
-    EXPECT_THAT(error([](app::Scene& s) {
-                    s.wounds[0].place = passes::FacePoint{2, 2};
+    EXPECT_THAT(error([&](scene::Scene& s) { s.head = folder / "broken.glb"; }), HasSubstr("broken.glb"));
+    EXPECT_THAT(error([&](scene::Scene& s) { s.tissue = folder / "broken.json"; }), HasSubstr("broken.json"));
+    EXPECT_THAT(error([](scene::Scene& s) {
+                    s.wounds[0].place = head::FacePoint{2, 2};
                 }),
                 HasSubstr("miss the head"));
-    EXPECT_THAT(error([](app::Scene& s) { s.wounds[0].place = std::string("toe"); }), HasSubstr("toe"));
-    EXPECT_THAT(error([](app::Scene& s) { s.wounds[0].healing.curve.gamma = 99; }), HasSubstr("gamma"));
-    EXPECT_THAT(error([](app::Scene& s) { s.wounds.resize(8); }), HasSubstr("7"));
-    EXPECT_THAT(error([](app::Scene& s) { s.lights.resize(9); }), HasSubstr("lights"));
-    EXPECT_THAT(error([](app::Scene& s) { s.days.clear(); }), HasSubstr("days"));
+    EXPECT_THAT(error([](scene::Scene& s) { s.wounds[0].place = std::string("toe"); }), HasSubstr("toe"));
+    EXPECT_THAT(error([](scene::Scene& s) { s.wounds[0].healing.curve.gamma = 99; }), HasSubstr("gamma"));
+    EXPECT_THAT(error([](scene::Scene& s) { s.wounds.resize(8); }), HasSubstr("7"));
+    EXPECT_THAT(error([](scene::Scene& s) { s.lights.resize(9); }), HasSubstr("lights"));
+    EXPECT_THAT(error([](scene::Scene& s) { s.days.clear(); }), HasSubstr("days"));
 }

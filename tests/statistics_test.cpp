@@ -1,5 +1,5 @@
 // Numbers about samples: known answers, and how often a comparison cries wolf.
-#include "apps/statistics.hpp"
+#include "base/statistics.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -26,13 +26,13 @@ std::vector<double> frame_times(std::uint64_t seed, double middle, std::size_t c
 
 TEST(Statistics, QuantilesAreLinearBetweenSamples)
 {
-    EXPECT_EQ(app::quantile({3, 1, 2}, 0), 1);
-    EXPECT_EQ(app::quantile({3, 1, 2}, 0.5), 2);
-    EXPECT_EQ(app::quantile({3, 1, 2}, 1), 3);
-    EXPECT_DOUBLE_EQ(app::quantile({4, 1, 3, 2}, 0.5), 2.5);
-    EXPECT_DOUBLE_EQ(app::quantile({0, 10}, 0.05), 0.5);
-    EXPECT_EQ(app::quantile({7}, 0.95), 7);
-    EXPECT_FALSE(app::spread_of({}));
+    EXPECT_EQ(base::quantile({3, 1, 2}, 0), 1);
+    EXPECT_EQ(base::quantile({3, 1, 2}, 0.5), 2);
+    EXPECT_EQ(base::quantile({3, 1, 2}, 1), 3);
+    EXPECT_DOUBLE_EQ(base::quantile({4, 1, 3, 2}, 0.5), 2.5);
+    EXPECT_DOUBLE_EQ(base::quantile({0, 10}, 0.05), 0.5);
+    EXPECT_EQ(base::quantile({7}, 0.95), 7);
+    EXPECT_FALSE(base::spread_of({}));
 }
 
 TEST(Statistics, TheSameMachineTwiceIsSeldomCalledDifferent)
@@ -41,7 +41,7 @@ TEST(Statistics, TheSameMachineTwiceIsSeldomCalledDifferent)
     constexpr int trials = 80;
     for (std::uint64_t i = 0; i < trials; ++i) {
         const auto interval =
-            app::ratio_of_medians(frame_times(2 * i + 1, 10), frame_times(2 * i + 2, 10), 0.05);
+            base::ratio_of_medians(frame_times(2 * i + 1, 10), frame_times(2 * i + 2, 10), 0.05);
         EXPECT_LE(interval.low, interval.ratio);
         EXPECT_GE(interval.high, interval.ratio);
         missed += interval.low > 1 || interval.high < 1;
@@ -52,7 +52,7 @@ TEST(Statistics, TheSameMachineTwiceIsSeldomCalledDifferent)
 TEST(Statistics, ADifferenceLargerThanTheNoiseIsSeen)
 {
     for (std::uint64_t i = 0; i < 20; ++i) {
-        const auto interval = app::ratio_of_medians(frame_times(i + 1, 10), frame_times(i + 101, 13), 0.01);
+        const auto interval = base::ratio_of_medians(frame_times(i + 1, 10), frame_times(i + 101, 13), 0.01);
         EXPECT_GT(interval.low, 1) << i;
         EXPECT_NEAR(interval.ratio, 1.3, 0.15) << i;
     }
@@ -60,9 +60,9 @@ TEST(Statistics, ADifferenceLargerThanTheNoiseIsSeen)
 
 TEST(Statistics, DriftComparesTheHalves)
 {
-    EXPECT_DOUBLE_EQ(app::drift_of(std::vector<double>{2, 2, 2, 3, 3, 3}), 1.5);
-    EXPECT_DOUBLE_EQ(app::drift_of(std::vector<double>{3, 3, 3, 2, 2, 2}), 1.5);
-    EXPECT_EQ(app::drift_of(std::vector<double>{5}), 1);
+    EXPECT_DOUBLE_EQ(base::drift_of(std::vector<double>{2, 2, 2, 3, 3, 3}), 1.5);
+    EXPECT_DOUBLE_EQ(base::drift_of(std::vector<double>{3, 3, 3, 2, 2, 2}), 1.5);
+    EXPECT_EQ(base::drift_of(std::vector<double>{5}), 1);
 }
 
 TEST(Statistics, PowerLawsAreRecovered)
@@ -72,7 +72,7 @@ TEST(Statistics, PowerLawsAreRecovered)
         x.push_back(at);
         y.push_back(3 * std::pow(at, 1.7));
     }
-    const auto law = app::fit_power_law(x, y).value();
+    const auto law = base::fit_power_law(x, y).value();
     EXPECT_NEAR(law.exponent, 1.7, 1e-12);
     EXPECT_NEAR(law.factor, 3, 1e-11);
     EXPECT_NEAR(law.standard_error, 0, 1e-9);
@@ -81,11 +81,11 @@ TEST(Statistics, PowerLawsAreRecovered)
     // By hand: ln y = 0, 1, 1 at ln x = 0, 1, 2 has slope 1/2; residuals -1/6, 1/3, -1/6, so s = sqrt(1/6 /
     // 2).
     const double e = std::exp(1);
-    const auto rough = app::fit_power_law(std::vector{1., e, e * e}, std::vector{1., e, e}).value();
+    const auto rough = base::fit_power_law(std::vector{1., e, e * e}, std::vector{1., e, e}).value();
     EXPECT_NEAR(rough.exponent, 0.5, 1e-12);
     EXPECT_NEAR(rough.standard_error, std::sqrt(1. / 12), 1e-12);
 
-    EXPECT_EQ(app::fit_power_law(std::vector{0., 1., 2., 4.}, std::vector{9., 1., 2., 4.})->points, 3u)
+    EXPECT_EQ(base::fit_power_law(std::vector{0., 1., 2., 4.}, std::vector{9., 1., 2., 4.})->points, 3u)
         << "zero wounds have no logarithm";
-    EXPECT_FALSE(app::fit_power_law(std::vector{1., 1., 2.}, std::vector{1., 1., 2.}));
+    EXPECT_FALSE(base::fit_power_law(std::vector{1., 1., 2.}, std::vector{1., 1., 2.}));
 }

@@ -1,5 +1,5 @@
 // What of a picture is copied where in a window, and a surface that is lost.
-#include "engine/swapchain.hpp"
+#include "engine/window/swapchain.hpp"
 
 #include <cstdlib>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 
 namespace {
 
-using engine::Box;
-using engine::clipped;
-using engine::PlacedPicture;
+using window::Box;
+using window::clipped;
+using window::PlacedPicture;
 
 TEST(PlacedPicture, InsideTheWindowStaysAsItIs)
 {
@@ -76,12 +76,12 @@ TEST(Swapchain, GoesOnWithANewSurfaceWhenOneIsLost)
 {
     const Desktop desktop;
     ::setenv("DISPLAY", desktop.display().c_str(), 1);
-    const engine::Window window("lost", {320, 200});
-    engine::Device device({.validation = true,
-                           .instance_extensions = window.instance_extensions(),
-                           .wishes = {{engine::Window::swapchain_extension}, engine::Window::can_present}});
+    const window::Window window("lost", {320, 200});
+    gpu::Device device({.validation = true,
+                        .instance_extensions = window.instance_extensions(),
+                        .wishes = {{window::Window::swapchain_extension}, window::Window::can_present}});
     {
-        engine::Swapchain swapchain(device, window);
+        window::Swapchain swapchain(device, window);
         const auto shows = [&](const std::array<float, 4>& background) {
             for (int attempt = 0; attempt < 5; ++attempt)
                 if (swapchain.show({{}, background, nullptr}))

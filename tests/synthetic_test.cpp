@@ -1,11 +1,11 @@
-#include "wound/synthetic.hpp"
+#include "wound/synthetic/synthetic.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "wound/color.hpp"
+#include "base/color.hpp"
 
 namespace {
 
@@ -26,7 +26,7 @@ cv::Vec3d mean_linear(const Photograph& photo, const cv::Mat1b& where)
         for (int x = 0; x < where.cols; ++x)
             if (where(y, x)) {
                 for (int k = 0; k < 3; ++k)
-                    sum[k] += wound::srgb_to_linear(float(photo.srgb(y, x)[k]) / 255);
+                    sum[k] += base::srgb_to_linear(float(photo.srgb(y, x)[k]) / 255);
                 ++count;
             }
     return sum / count;
@@ -147,7 +147,7 @@ TEST(SyntheticWound, ReddensTheSkinAroundItAndLeavesFarSkinAlone)
                     far = mean_linear(photo, ring(photo, 12, 40));
     EXPECT_LT(near[1] / near[0], .75 * far[1] / far[0]);
     for (int k = 0; k < 3; ++k)
-        EXPECT_NEAR(far[k] / wound::srgb_to_linear(float(wound.skin[k]) / 255), 1, .06);
+        EXPECT_NEAR(far[k] / base::srgb_to_linear(float(wound.skin[k]) / 255), 1, .06);
 }
 
 TEST(SyntheticWound, GivesClotAndFibrinTheirShares)

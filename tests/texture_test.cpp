@@ -1,17 +1,15 @@
 // Mip levels on the CPU, and what a shader gets out of a texture.
-#include "engine/texture.hpp"
+#include "engine/gpu/texture.hpp"
 #include "tests/gpu.hpp"
 
 #include <glm/glm.hpp>
 
 namespace {
 
-using namespace engine;
-
 TEST(MipChain, GoesDownToOneTexelThroughOddSizes)
 {
     const std::vector<cv::Mat> levels =
-        mip_chain(cv::Mat(5, 12, CV_8UC4, cv::Scalar::all(10)), Encoding::Linear);
+        gpu::mip_chain(cv::Mat(5, 12, CV_8UC4, cv::Scalar::all(10)), gpu::Encoding::Linear);
     ASSERT_EQ(levels.size(), 4u);
     EXPECT_EQ(levels[1].size(), cv::Size(6, 2));
     EXPECT_EQ(levels[2].size(), cv::Size(3, 1));
@@ -24,15 +22,17 @@ TEST(MipChain, AveragesColourInLinearLightAndAlphaAsItIs)
     cv::Mat4b checks(2, 2, cv::Vec4b(0, 0, 0, 0));
     checks(0, 0) = checks(1, 1) = cv::Vec4b(255, 255, 255, 255);
     // Half the light of white is 188 in sRGB, not 128.
-    EXPECT_EQ(mip_chain(checks, Encoding::Srgb)[1].at<cv::Vec4b>(0, 0), cv::Vec4b(188, 188, 188, 128));
-    EXPECT_EQ(mip_chain(checks, Encoding::Linear)[1].at<cv::Vec4b>(0, 0), cv::Vec4b(128, 128, 128, 128));
+    EXPECT_EQ(gpu::mip_chain(checks, gpu::Encoding::Srgb)[1].at<cv::Vec4b>(0, 0),
+              cv::Vec4b(188, 188, 188, 128));
+    EXPECT_EQ(gpu::mip_chain(checks, gpu::Encoding::Linear)[1].at<cv::Vec4b>(0, 0),
+              cv::Vec4b(128, 128, 128, 128));
 }
 
 TEST(MipChain, KeepsEverySrgbValueOfAFlatPicture)
 {
     for (int value = 0; value < 256; ++value) {
         const cv::Mat flat(2, 2, CV_8UC4, cv::Scalar::all(value));
-        ASSERT_EQ(mip_chain(flat, Encoding::Srgb)[1].at<cv::Vec4b>(0, 0),
+        ASSERT_EQ(gpu::mip_chain(flat, gpu::Encoding::Srgb)[1].at<cv::Vec4b>(0, 0),
                   cv::Vec4b::all(static_cast<uchar>(value)));
     }
 }
@@ -40,20 +40,20 @@ TEST(MipChain, KeepsEverySrgbValueOfAFlatPicture)
 using TextureTest = gpu::Test;
 
 /// What a shader sees of a texture, one texel for each.
-cv::Mat4f sampled(const cv::Mat& picture, Encoding encoding)
+cv::Mat4f sampled(const cv::Mat& picture, gpu::Encoding encoding)
 {
-    const Texture texture(gpu::device(), picture, encoding, false, "picture");
-    Executor executor(gpu::device(), gpu::shaders());
-    Graph graph;
-    const ImageDesc desc{static_cast<std::uint32_t>(picture.cols), static_cast<std::uint32_t>(picture.rows),
-                         VK_FORMAT_R32G32B32A32_SFLOAT};
-    const ImageId shown = graph.image("shown", desc);
-    RasterPass& show = graph.raster("show");
+    const gpu::Texture texture(gpu::device(), picture, encoding, false, "picture");
+    gpu::Executor executor(gpu::device(), gpu::shaders());
+    graph::Graph graph;
+    const graph::ImageDesc desc{static_cast<std::uint32_t>(picture.cols),
+                                static_cast<std::uint32_t>(picture.rows), VK_FORMAT_R32G32B32A32_SFLOAT};
+    const graph::ImageId shown = graph.image("shown", desc);
+    graph::RasterPass& show = graph.raster("show");
     show.color(shown, {});
-    show.sample("source", graph.import("picture", texture), Sampler::NearestClamp);
+    show.sample("source", graph.import("picture", texture), graph::Sampler::NearestClamp);
     show.uniform("Tint", glm::vec4(1.0f));
     show.draw("test_quad").index_count = 3;
-    const ReadbackId back = graph.readback("shown", shown);
+    const graph::ReadbackId back = graph.readback("shown", shown);
     return executor.run(graph).mat(back).clone();
 }
 
@@ -62,7 +62,7 @@ TEST_F(TextureTest, SrgbColourReachesTheShaderAsLinearLight)
     cv::Mat4b ramp(1, 256);
     for (int i = 0; i < 256; ++i)
         ramp(0, i) = cv::Vec4b(static_cast<uchar>(i), static_cast<uchar>(255 - i), 0, static_cast<uchar>(i));
-    const cv::Mat4f got = sampled(ramp, Encoding::Srgb);
+    const cv::Mat4f got = sampled(ramp, gpu::Encoding::Srgb);
     for (int i = 0; i < 256; ++i) {
         const double encoded = i / 255.0;
         const double linear = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
@@ -87,7 +87,7 @@ TEST_F(TextureTest, EveryKindOfPixelArrivesAsItIs)
             cv::Mat picture;
             cv::merge(planes, picture);
             picture.convertTo(picture, depth, depth == CV_8U ? 255.0 : 1.0);
-            const cv::Mat4f got = sampled(picture, Encoding::Linear);
+            const cv::Mat4f got = sampled(picture, gpu::Encoding::Linear);
             for (int y = 0; y < 3; ++y)
                 for (int x = 0; x < 5; ++x)
                     for (int c = 0; c < channels; ++c)
@@ -100,15 +100,18 @@ TEST_F(TextureTest, APartOfALargerPictureIsUploadedWithoutItsSurroundings)
 {
     cv::Mat4f whole(8, 8, cv::Vec4f::all(-1.0f));
     whole(cv::Rect(2, 3, 4, 2)).setTo(cv::Scalar::all(0.5));
-    const cv::Mat4f got = sampled(whole(cv::Rect(2, 3, 4, 2)), Encoding::Linear);
+    const cv::Mat4f got = sampled(whole(cv::Rect(2, 3, 4, 2)), gpu::Encoding::Linear);
     EXPECT_EQ(cv::countNonZero(got.reshape(1) != 0.5f), 0);
 }
 
 TEST_F(TextureTest, RefusesPixelsItHasNoFormatFor)
 {
-    EXPECT_THROW(Texture(gpu::device(), cv::Mat3b(4, 4), Encoding::Linear, false, "rgb"), std::logic_error);
-    EXPECT_THROW(Texture(gpu::device(), cv::Mat1b(4, 4), Encoding::Srgb, false, "grey"), std::logic_error);
-    EXPECT_THROW(Texture(gpu::device(), cv::Mat(), Encoding::Linear, false, "nothing"), std::logic_error);
+    EXPECT_THROW(gpu::Texture(gpu::device(), cv::Mat3b(4, 4), gpu::Encoding::Linear, false, "rgb"),
+                 std::logic_error);
+    EXPECT_THROW(gpu::Texture(gpu::device(), cv::Mat1b(4, 4), gpu::Encoding::Srgb, false, "grey"),
+                 std::logic_error);
+    EXPECT_THROW(gpu::Texture(gpu::device(), cv::Mat(), gpu::Encoding::Linear, false, "nothing"),
+                 std::logic_error);
 }
 
 } // namespace

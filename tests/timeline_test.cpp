@@ -1,11 +1,11 @@
 // The phases and marks that a timeline shows.
-#include "wound/timeline.hpp"
+#include "wound/healing/timeline.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "wound/phases.hpp"
-#include "wound/scar.hpp"
+#include "wound/healing/phases.hpp"
+#include "wound/healing/scar.hpp"
 
 TEST(Timeline, PhasesFollowEachOtherWithoutGaps)
 {

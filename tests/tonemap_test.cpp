@@ -2,20 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/texture.hpp"
+#include "base/color.hpp"
+#include "engine/gpu/texture.hpp"
 #include "tests/gpu.hpp"
-#include "wound/color.hpp"
 
 namespace {
 
 cv::Mat4b encode(const cv::Mat4f& linear, float exposure, passes::Highlights highlights)
 {
-    const engine::Texture texture(gpu::device(), linear, engine::Encoding::Linear, false, "hdr");
-    engine::Graph graph;
-    const engine::ImageId encoded =
+    const gpu::Texture texture(gpu::device(), linear, gpu::Encoding::Linear, false, "hdr");
+    graph::Graph graph;
+    const graph::ImageId encoded =
         passes::add_tonemap(graph, graph.import("hdr", texture), exposure, highlights);
-    const engine::ReadbackId back = graph.readback("encoded", encoded);
-    engine::Executor executor(gpu::device(), gpu::shaders());
+    const graph::ReadbackId back = graph.readback("encoded", encoded);
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     return cv::Mat4b(executor.run(graph).mat(back).clone());
 }
 
@@ -41,7 +41,7 @@ TEST_F(Tonemap, ClippedPictureIsTheExactSrgbCode)
     for (int y = 0; y < linear.rows; ++y)
         for (int x = 0; x < linear.cols; ++x) {
             const cv::Vec4f in = linear(y, x);
-            const cv::Vec3b expected = wound::srgb8_from_linear({in[0], in[1], in[2]});
+            const cv::Vec3b expected = base::srgb8_from_linear({in[0], in[1], in[2]});
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(encoded(y, x)[c], expected[c], 1)
                     << x; // a value halfway between codes may round either way
@@ -53,7 +53,7 @@ TEST_F(Tonemap, ExposureIsInStops)
 {
     cv::Mat4f linear(1, 1, cv::Vec4f(0.1f, 0.2f, 0.3f, 1));
     const cv::Vec4b code = encode(linear, 1, passes::Highlights::Clip)(0, 0);
-    const cv::Vec3b expected = wound::srgb8_from_linear({0.2, 0.4, 0.6});
+    const cv::Vec3b expected = base::srgb8_from_linear({0.2, 0.4, 0.6});
     EXPECT_EQ(cv::Vec3b(code[0], code[1], code[2]), expected);
 }
 

@@ -1,5 +1,5 @@
-// The warp ladder: area, folds, fixed points, agreement between the rungs.
-#include "wound/warp.hpp"
+// The warp ladder: area, folds, fixed points, agreement between the models.
+#include "wound/warp/warp.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,14 +9,14 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "wound/warp_ladder.hpp"
+#include "wound/warp/warp_ladder.hpp"
 
 namespace {
 
 using testing::HasSubstr;
 using wound::Polyline;
 using wound::Warp;
-using wound::WarpRung;
+using wound::WarpModel;
 
 struct Shape
 {
@@ -78,8 +78,8 @@ TEST(Warp, ControlPointsAndCentroidGoWhereEquationOneSays)
 {
     for (const Shape& shape : shapes())
         for (double r : {1.2, .6, .05})
-            for (WarpRung rung : {WarpRung::dense, WarpRung::composed}) {
-                const Warp warp = wound::make_warp(shape.flow, r, rung);
+            for (WarpModel model : {WarpModel::dense, WarpModel::composed}) {
+                const Warp warp = wound::make_warp(shape.flow, r, model);
                 for (cv::Point2d control : shape.flow.control_points) {
                     const cv::Point2d offset = control - shape.centroid;
                     const cv::Point2d today = control - offset * (1 - std::sqrt(r)); // d_n = D_n (1 - sqrt r)
@@ -88,18 +88,18 @@ TEST(Warp, ControlPointsAndCentroidGoWhereEquationOneSays)
             }
 }
 
-TEST(Warp, WarpedAreaIsTheRatioOnEveryFoldFreeRung)
+TEST(Warp, WarpedAreaIsTheRatioOnEveryFoldFreeModel)
 {
     for (const Shape& shape : shapes())
-        for (WarpRung rung : {WarpRung::radial, WarpRung::grid})
+        for (WarpModel model : {WarpModel::radial, WarpModel::grid})
         { // composed: within a quarter texel of grid, tested below
             const double day0 = warped_area(shape, Warp{});
             EXPECT_NEAR(day0 / wound::signed_area(shape.border), 1,
                         .025); // filling takes the outline's pixels too
             for (double r : {.9, .6, .4, .2, .1, .05}) {
-                const double ratio = warped_area(shape, wound::make_warp(shape.flow, r, rung)) / day0;
+                const double ratio = warped_area(shape, wound::make_warp(shape.flow, r, model)) / day0;
                 EXPECT_NEAR(ratio / r, 1, .02)
-                    << shape.name << " " << r << " rung " << static_cast<int>(rung);
+                    << shape.name << " " << r << " model " << static_cast<int>(model);
                 EXPECT_NEAR(ratio, r, .005) << shape.name;
             }
         }
@@ -109,23 +109,24 @@ TEST(Warp, NeverFoldsDownToOnePercent)
 {
     for (const Shape& shape : shapes())
         for (double r : {1.4, .4, .05, .01})
-            for (WarpRung rung : {WarpRung::radial, WarpRung::grid}) {
+            for (WarpModel model : {WarpModel::radial, WarpModel::grid}) {
                 if (r > 1 && shape.name == "near the frame")
                     continue; // it would grow out of the patch
-                const auto check = wound::check_folds(wound::make_warp(shape.flow, r, rung), 512);
+                const auto check = wound::check_folds(wound::make_warp(shape.flow, r, model), 512);
                 EXPECT_EQ(check.folded_texels, 0)
-                    << shape.name << " " << r << " rung " << static_cast<int>(rung);
+                    << shape.name << " " << r << " model " << static_cast<int>(model);
                 EXPECT_GT(check.least_jacobian, 0);
             }
     for (const Shape& shape : shapes())
         EXPECT_EQ(
-            wound::check_folds(wound::make_warp(shape.flow, .01, WarpRung::composed), 100).folded_texels, 0)
+            wound::check_folds(wound::make_warp(shape.flow, .01, WarpModel::composed), 100).folded_texels, 0)
             << shape.name;
 }
 
 TEST(Warp, OneThinPlateStepFoldsWhichIsWhyStepsAreComposed)
 {
-    const auto check = wound::check_folds(wound::make_warp(shapes().front().flow, .01, WarpRung::dense), 128);
+    const auto check =
+        wound::check_folds(wound::make_warp(shapes().front().flow, .01, WarpModel::dense), 128);
     EXPECT_GT(check.folded_texels, 1000);
 }
 
@@ -134,8 +135,8 @@ TEST(Warp, GridIsWithinAQuarterTexelOfTheComposedMap)
     for (const Shape& shape : shapes())
         for (double r : {1.2, .4, .05, .01}) {
             const cv::Mat2d exact =
-                wound::backward_map(wound::make_warp(shape.flow, r, WarpRung::composed), 80);
-            const cv::Mat2d grid = wound::backward_map(wound::make_warp(shape.flow, r, WarpRung::grid), 80);
+                wound::backward_map(wound::make_warp(shape.flow, r, WarpModel::composed), 80);
+            const cv::Mat2d grid = wound::backward_map(wound::make_warp(shape.flow, r, WarpModel::grid), 80);
             double worst = 0;
             for (int j = 0; j < 80; ++j)
                 for (int i = 0; i < 80; ++i)
@@ -148,8 +149,8 @@ TEST(Warp, FrameAndCentroidStay)
 {
     for (const Shape& shape : shapes())
         for (double r : {1.2, .6, .05})
-            for (WarpRung rung : {WarpRung::radial, WarpRung::grid, WarpRung::composed}) {
-                const Warp warp = wound::make_warp(shape.flow, r, rung);
+            for (WarpModel model : {WarpModel::radial, WarpModel::grid, WarpModel::composed}) {
+                const Warp warp = wound::make_warp(shape.flow, r, model);
                 EXPECT_LT(cv::norm(warp.apply(shape.centroid) - shape.centroid), .03 * .45) << shape.name;
                 for (double t = -1; t <= 1; t += .01)
                     for (cv::Point2d p : {cv::Point2d(t, -1), {t, 1}, {-1, t}, {1, t}})
@@ -185,18 +186,18 @@ TEST(Warp, IsContinuousInTheRatio)
     // Across a whole number of steps, r = .62^2, the partial step vanishes or a new one appears.
     const auto& flow = shapes()[1].flow;
     const double r = wound::kStepScale * wound::kStepScale;
-    const cv::Mat2d a = wound::backward_map(wound::make_warp(flow, r * (1 - 1e-6), WarpRung::composed), 32);
-    const cv::Mat2d b = wound::backward_map(wound::make_warp(flow, r * (1 + 1e-6), WarpRung::composed), 32);
+    const cv::Mat2d a = wound::backward_map(wound::make_warp(flow, r * (1 - 1e-6), WarpModel::composed), 32);
+    const cv::Mat2d b = wound::backward_map(wound::make_warp(flow, r * (1 + 1e-6), WarpModel::composed), 32);
     EXPECT_LT(cv::norm(a - b, cv::NORM_INF), 1e-5);
 }
 
 TEST(Warp, RatioOneIsTheIdentityAndZeroIsDrawnAsTheSmallest)
 {
-    for (WarpRung rung : {WarpRung::radial, WarpRung::grid, WarpRung::dense, WarpRung::composed}) {
-        const Warp same = wound::make_warp(shapes()[2].flow, 1, rung);
+    for (WarpModel model : {WarpModel::radial, WarpModel::grid, WarpModel::dense, WarpModel::composed}) {
+        const Warp same = wound::make_warp(shapes()[2].flow, 1, model);
         for (cv::Point2d p : {cv::Point2d(.2, .1), {-.8, .7}, {0, 0}})
             EXPECT_LT(cv::norm(same.apply(p) - p), 1e-7);
-        EXPECT_EQ(wound::make_warp(shapes()[2].flow, 0, rung).scale, wound::kSmallestScale);
+        EXPECT_EQ(wound::make_warp(shapes()[2].flow, 0, model).scale, wound::kSmallestScale);
     }
 }
 
@@ -206,30 +207,30 @@ TEST(Warp, CoincidentAndCollinearControlPointsAreSolved)
     Polyline points = wound::control_points(border, {0, 0}, .1);
     points.push_back(points.front());
     points.push_back(points[1] * (1 - 1e-6));
-    const Warp warp = wound::make_warp(wound::prepare_flow(border, points, {0, 0}), .1, WarpRung::composed);
+    const Warp warp = wound::make_warp(wound::prepare_flow(border, points, {0, 0}), .1, WarpModel::composed);
     for (cv::Point2d p : points)
         EXPECT_LT(cv::norm(warp.apply(p * std::sqrt(.1)) - p), 1e-6);
 
     const Polyline line{{-.4, 0}, {-.2, 0}, {.2, 0}, {.4, 0}};
-    const Warp flat = wound::make_warp(wound::prepare_flow(border, line, {0, 0}), .1, WarpRung::composed);
+    const Warp flat = wound::make_warp(wound::prepare_flow(border, line, {0, 0}), .1, WarpModel::composed);
     EXPECT_LT(cv::norm(flat.apply(line[3] * std::sqrt(.1)) - line[3]), 1e-6);
 }
 
 TEST(Warp, LadderMeasuresWhatItClaims)
 {
     const auto rows = wound::measure_ladder(wound::ladder_shapes().front());
-    ASSERT_EQ(rows.size(), std::size(wound::kLadderRungs) * std::size(wound::kLadderRatios));
+    ASSERT_EQ(rows.size(), std::size(wound::kWarpModels) * std::size(wound::kLadderRatios));
     for (const wound::LadderRow& row : rows) {
-        if (row.rung == WarpRung::composed) {
+        if (row.model == WarpModel::composed) {
             EXPECT_EQ(row.error_texels, 0);
         }
-        if (row.rung != WarpRung::dense) {
+        if (row.model != WarpModel::dense) {
             EXPECT_LT(std::abs(row.area_error), .02) << row.ratio;
         } else if (row.ratio < .02) {
             EXPECT_GT(row.folded_texels, 0);
         }
     }
-    EXPECT_EQ(wound::cheapest_exact(rows), WarpRung::grid);
+    EXPECT_EQ(wound::cheapest_exact(rows), WarpModel::grid);
 }
 
 /// Rows whose numbers say where they belong.
@@ -238,11 +239,11 @@ std::vector<wound::LadderRow> numbered_rows()
     std::vector<wound::LadderRow> rows;
     for (const char* shape : {"circle", "a \"mask\", mine"})
         for (const double ratio : wound::kLadderRatios)
-            for (const WarpRung rung : wound::kLadderRungs) {
-                wound::LadderRow row{shape, rung, ratio};
-                row.error_texels = rung == WarpRung::composed ? 0 : 10 * ratio + int(rung);
+            for (const WarpModel model : wound::kWarpModels) {
+                wound::LadderRow row{shape, model, ratio};
+                row.error_texels = model == WarpModel::composed ? 0 : 10 * ratio + int(model);
                 row.least_jacobian = ratio;
-                row.ms_per_megatexel = 10 * (1 + int(rung));
+                row.ms_per_megatexel = 10 * (1 + int(model));
                 rows.push_back(row);
             }
     rows[2].folded_texels = 26214; // dense, at 1.2, of the circle
@@ -264,16 +265,16 @@ TEST(Warp, LadderIsWrittenWhole)
                 HasSubstr("| dense | 14.000 | 0.000 | 0.00 | 26214 | -2.000 | 0.0 .. 0.0 | 30 .. 30 |\n"));
 }
 
-TEST(Warp, CheapestExactRungNeitherErrsNorFolds)
+TEST(Warp, CheapestExactModelNeitherErrsNorFolds)
 {
     std::vector<wound::LadderRow> rows = numbered_rows();
-    EXPECT_EQ(wound::cheapest_exact(rows), WarpRung::composed);
+    EXPECT_EQ(wound::cheapest_exact(rows), WarpModel::composed);
     for (wound::LadderRow& row : rows)
         row.error_texels = wound::kErrorLimit;
-    EXPECT_EQ(wound::cheapest_exact(rows), WarpRung::radial);
+    EXPECT_EQ(wound::cheapest_exact(rows), WarpModel::radial);
     rows[0].error_texels = .26; // one row of radial
     rows[1].folded_texels = 1;  // one of grid, one of dense above
-    EXPECT_EQ(wound::cheapest_exact(rows), WarpRung::composed);
+    EXPECT_EQ(wound::cheapest_exact(rows), WarpModel::composed);
     rows[3].folded_texels = 1;
     EXPECT_EQ(wound::cheapest_exact(rows), std::nullopt);
 }
@@ -291,14 +292,14 @@ TEST(Warp, PictureOfTheLadderShowsTheFold)
 TEST(Warp, PackedLayoutHoldsEveryNumberInOrder)
 {
     std::vector<shared::vec2> values{{9, 9}};
-    const Warp composed = wound::make_warp(shapes()[0].flow, .3, WarpRung::composed);
+    const Warp composed = wound::make_warp(shapes()[0].flow, .3, WarpModel::composed);
     const auto header = wound::pack(composed, values);
     EXPECT_EQ(header.first, 1U);
     EXPECT_EQ(header.steps, composed.steps.size());
     ASSERT_EQ(values.size(), 1 + composed.steps.size() * (3 + 2 * header.count));
     EXPECT_FLOAT_EQ(values[1 + 3 + 2 * header.count].x, static_cast<float>(composed.steps[1].affine[0].x));
 
-    const Warp grid = wound::make_warp(shapes()[0].flow, .3, WarpRung::grid);
+    const Warp grid = wound::make_warp(shapes()[0].flow, .3, WarpModel::grid);
     const auto second = wound::pack(grid, values);
     EXPECT_EQ(second.first + second.count + second.count * second.count, values.size());
     EXPECT_FLOAT_EQ(values[second.first].x, -1);

@@ -6,15 +6,15 @@
 
 #include "passes/wound_texture.hpp"
 #include "tests/gpu.hpp"
-#include "wound/phases.hpp"
+#include "wound/healing/phases.hpp"
 #include "wound/prepare.hpp"
-#include "wound/synthetic.hpp"
+#include "wound/synthetic/synthetic.hpp"
 
 namespace {
 
 using WoundFormulas = gpu::Test;
 
-cv::Mat4f read(const engine::FrameResult& frame, engine::ReadbackId id)
+cv::Mat4f read(const gpu::FrameResult& frame, graph::ReadbackId id)
 {
     cv::Mat4f values;
     frame.mat(id).convertTo(values, CV_32F);
@@ -35,7 +35,7 @@ TEST_F(WoundFormulas, PhasesColourTheBedAsTheReferenceDoes)
     patch.color(0, 3) = {0, 1, 0};
     const double luminance = wound::bed_luminance(patch);
     const passes::WoundMaps maps = passes::upload_wound(gpu::device(), patch);
-    engine::Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
 
     std::vector<wound::Phase> phases{{1, 1, 1, 1}, {0, 0, 0, 0}, {.3, 0, .9, .5}};
     for (const double day : {0., .7, 2., 4., 7., 12., 30.})
@@ -44,8 +44,8 @@ TEST_F(WoundFormulas, PhasesColourTheBedAsTheReferenceDoes)
         wound::WoundDay day;
         day.in_phases = true;
         day.phase = phase;
-        engine::Graph graph;
-        const engine::ReadbackId id =
+        graph::Graph graph;
+        const graph::ReadbackId id =
             graph.readback("color", passes::add_wound_texture(graph, "", maps, day).color);
         const cv::Mat4f drawn = read(executor.run(graph), id);
         double worst = 0;
@@ -75,16 +75,16 @@ TEST_F(WoundFormulas, ReliefIsTheSlopeAndTheOpennessOfTheDepth)
     preparation.patch_size = 128;
     const wound::PreparedWound wound = wound::prepare(wound::synthesize({}), preparation);
     const passes::WoundMaps maps = passes::upload_wound(gpu::device(), wound.patch);
-    engine::Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     const double texel_mm = wound.patch.width_mm / 128, reach = 4 / texel_mm;
 
     for (const double today : {0., 6., 15., 60.}) {
         const wound::WoundDay day = wound::wound_at(wound, {}, today);
-        engine::Graph graph;
+        graph::Graph graph;
         const passes::WoundTexture texture = passes::add_wound_texture(graph, "", maps, day);
-        const engine::ReadbackId state_id = graph.readback("state", texture.state),
-                                 relief_id = graph.readback("relief", texture.relief);
-        const engine::FrameResult frame = executor.run(graph);
+        const graph::ReadbackId state_id = graph.readback("state", texture.state),
+                                relief_id = graph.readback("relief", texture.relief);
+        const gpu::FrameResult frame = executor.run(graph);
         const cv::Mat4f state = read(frame, state_id), relief = read(frame, relief_id);
         const auto at = [&](int x, int y) { return depth(state, x, y, day.depth_scale, day.scar.height_mm); };
         for (int y = 0; y < 128; ++y)

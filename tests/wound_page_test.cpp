@@ -1,5 +1,5 @@
 // The page and the numbers of `cicatrix wound`.
-#include "apps/wound_page.hpp"
+#include "apps/wound/wound_page.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ wound::Preparation small_patch()
 TEST(WoundPage, NumbersAreInPixelsOfThePhotograph)
 {
     const auto photo = testing_wounds::photograph({220, 180}, {120, 90}, testing_wounds::ellipse(40, 30));
-    const auto json = app::wound_to_json(wound::prepare(photo, small_patch()), {});
+    const auto json = wound_command::wound_to_json(wound::prepare(photo, small_patch()), {});
     EXPECT_NEAR(json["area_px"].get<double>(), cv::countNonZero(photo.mask),
                 .02 * cv::countNonZero(photo.mask));
     EXPECT_NEAR(json["centroid_px"][0].get<double>(), 120, .1);
@@ -38,7 +38,7 @@ TEST(WoundPage, NumbersAreInPixelsOfThePhotograph)
 TEST(WoundPage, PageShowsThePhotographAndTheControlPoints)
 {
     const auto photo = testing_wounds::photograph({220, 180}, {120, 90}, testing_wounds::ellipse(40, 30));
-    const cv::Mat3b page = app::draw_wound_page(photo, wound::prepare(photo, small_patch()), {});
+    const cv::Mat3b page = wound_command::draw_wound_page(photo, wound::prepare(photo, small_patch()), {});
     int red = 0;
     for (const cv::Vec3b& p : page)
         red += p == cv::Vec3b(200, 30, 30);

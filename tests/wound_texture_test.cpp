@@ -7,18 +7,18 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "engine/image_compare.hpp"
+#include "base/image_compare.hpp"
 #include "passes/wound_texture.hpp"
 #include "tests/gpu.hpp"
 #include "wound/drawn_region.hpp"
 #include "wound/prepare.hpp"
-#include "wound/synthetic.hpp"
+#include "wound/synthetic/synthetic.hpp"
 
 namespace {
 
-using wound::WarpRung;
+using wound::WarpModel;
 
-constexpr WarpRung rungs[] = {WarpRung::radial, WarpRung::grid, WarpRung::dense, WarpRung::composed};
+constexpr WarpModel levels[] = {WarpModel::radial, WarpModel::grid, WarpModel::dense, WarpModel::composed};
 
 /// Skin with a lobed, lopsided red patch, and its mask.
 wound::Photograph irregular_photograph()
@@ -46,15 +46,15 @@ wound::PreparedWound prepared(const wound::Photograph& photograph, int patch_siz
 
 /// A day of which only the areas matter.
 wound::WoundDay day_with(const wound::PreparedWound& wound, double bed_ratio, double border_ratio,
-                         WarpRung rung = WarpRung::grid)
+                         WarpModel model = WarpModel::grid)
 {
     wound::WoundDay day;
     day.unhealed_ratio = bed_ratio;
     day.border_ratio = border_ratio;
     day.bed_recovery = day.border_recovery = day.recovery_ratio = std::clamp(1 - bed_ratio, 0.0, 1.0);
     day.depth_scale = std::sqrt(std::min(bed_ratio, 1.0));
-    day.border_warp = wound::make_warp(wound.flow, border_ratio, rung);
-    day.bed_warp = wound::make_warp(wound.flow, bed_ratio, rung);
+    day.border_warp = wound::make_warp(wound.flow, border_ratio, level);
+    day.bed_warp = wound::make_warp(wound.flow, bed_ratio, level);
     return day;
 }
 
@@ -64,14 +64,14 @@ struct Maps
     cv::Mat4f color, state, relief;
 };
 
-Maps draw(engine::Executor& executor, const passes::WoundMaps& maps, const wound::WoundDay& today)
+Maps draw(gpu::Executor& executor, const passes::WoundMaps& maps, const wound::WoundDay& today)
 {
-    engine::Graph graph;
+    graph::Graph graph;
     const passes::WoundTexture texture = passes::add_wound_texture(graph, "", maps, today);
-    const engine::ReadbackId ids[] = {graph.readback("color", texture.color),
-                                      graph.readback("state", texture.state),
-                                      graph.readback("relief", texture.relief)};
-    const engine::FrameResult frame = executor.run(graph);
+    const graph::ReadbackId ids[] = {graph.readback("color", texture.color),
+                                     graph.readback("state", texture.state),
+                                     graph.readback("relief", texture.relief)};
+    const gpu::FrameResult frame = executor.run(graph);
     Maps result;
     cv::Mat4f* const targets[] = {&result.color, &result.state, &result.relief};
     for (int i = 0; i < 3; ++i)
@@ -84,7 +84,7 @@ using WoundTextureOnGpu = gpu::Test;
 void expect_areas(const char* name, const wound::PreparedWound& wound)
 {
     const passes::WoundMaps maps = passes::upload_wound(gpu::device(), wound.patch);
-    engine::Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     const double initial = cv::sum(wound.patch.mask)[0];
     const std::pair<double, double> ratios[] = {{.9, .9},   {.6, .6},    {.4, .4},
                                                 {.2, .2},   {.1, .1},    {.05, .05}, // contraction
@@ -100,21 +100,21 @@ void expect_areas(const char* name, const wound::PreparedWound& wound)
 }
 
 /// Largest distance between the shader's warp and the CPU's, in texels of a patch of 512.
-double largest_error(const wound::Warp& warp, engine::Executor& executor)
+double largest_error(const wound::Warp& warp, gpu::Executor& executor)
 {
     constexpr int side = 64;
     std::vector<shared::vec2> values;
     const shared::WarpHeader header = wound::pack(warp, values);
-    engine::Graph graph;
-    const engine::ImageId day0 = graph.image("day0", {side, side, VK_FORMAT_R32G32B32A32_SFLOAT});
-    engine::ComputePass& pass = graph.compute("warp test", "warp_test.comp");
-    pass.constant("RUNG", std::uint32_t(warp.rung));
+    graph::Graph graph;
+    const graph::ImageId day0 = graph.image("day0", {side, side, VK_FORMAT_R32G32B32A32_SFLOAT});
+    graph::ComputePass& pass = graph.compute("warp test", "warp_test.comp");
+    pass.constant("WARP_MODEL", std::uint32_t(warp.model));
     pass.uniform("Header", header);
     pass.buffer<shared::vec2>("WarpValues_", values);
     pass.store("day0", day0);
     pass.dispatch(side, side);
-    const engine::ReadbackId back = graph.readback("day0", day0);
-    const engine::FrameResult frame = executor.run(graph);
+    const graph::ReadbackId back = graph.readback("day0", day0);
+    const gpu::FrameResult frame = executor.run(graph);
     const cv::Mat4f shader = frame.mat(back);
     const cv::Mat2d reference = wound::backward_map(warp, side);
     double largest = 0;
@@ -138,21 +138,23 @@ TEST_F(WoundTextureOnGpu, WarpedMaskHasTheAreaThatWasAskedFor)
 // Single precision against double. Largest errors found on lavapipe, in texels of 512: radial .0001, grid
 // .0001, dense .1 (one thin plate over the whole way has huge weights that cancel), composed .001. The bounds
 // leave room for a device that rounds logarithms less well.
-TEST_F(WoundTextureOnGpu, EveryRungOfTheWarpEqualsTheReference)
+TEST_F(WoundTextureOnGpu, EveryModelOfTheWarpEqualsTheReference)
 {
-    const std::map<WarpRung, double> bounds{
-        {WarpRung::radial, .001}, {WarpRung::grid, .001}, {WarpRung::dense, .5}, {WarpRung::composed, .01}};
-    engine::Executor executor(gpu::device(), gpu::shaders());
+    const std::map<WarpModel, double> bounds{{WarpModel::radial, .001},
+                                             {WarpModel::grid, .001},
+                                             {WarpModel::dense, .5},
+                                             {WarpModel::composed, .01}};
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     for (const wound::Photograph& photograph : {wound::synthesize({}), irregular_photograph()}) {
         const wound::PreparedWound wound = prepared(photograph, 256);
-        for (const WarpRung rung : rungs) {
+        for (const WarpModel level : levels) {
             double largest = 0;
             for (const double r : {1.4, 1., .5, .05, 0.}) {
-                const double error = largest_error(wound::make_warp(wound.flow, r, rung), executor);
-                EXPECT_LT(error, bounds.at(rung)) << "rung " << int(rung) << ", r = " << r;
+                const double error = largest_error(wound::make_warp(wound.flow, r, level), executor);
+                EXPECT_LT(error, bounds.at(level)) << "level " << int(level) << ", r = " << r;
                 largest = std::max(largest, error);
             }
-            RecordProperty(fmt::format("largest_error_in_texels_rung_{}", int(rung)),
+            RecordProperty(fmt::format("largest_error_in_texels_model_{}", int(level)),
                            std::to_string(largest));
         }
     }
@@ -162,12 +164,12 @@ TEST_F(WoundTextureOnGpu, NoDayGivesAnythingButColorsAndShares)
 {
     const wound::PreparedWound wound = prepared(wound::synthesize({}), 128);
     const passes::WoundMaps maps = passes::upload_wound(gpu::device(), wound.patch);
-    engine::Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     std::vector<std::pair<std::string, wound::WoundDay>> days;
-    for (const WarpRung rung : rungs)
+    for (const WarpModel level : levels)
         for (const double r : {0.0, .01, 1.4})
-            days.emplace_back(fmt::format("r = {}, rung {}", r, int(rung)),
-                              day_with(wound, r, .43 + .57 * r, rung));
+            days.emplace_back(fmt::format("r = {}, level {}", r, int(level)),
+                              day_with(wound, r, .43 + .57 * r, level));
     for (const double day : {0.0, 1e-3, 30.0, 1e9})
         for (const wound::HealingModel model : {wound::HealingModel::contraction, wound::HealingModel::face})
             for (const auto& [delta, theta] :
@@ -183,7 +185,7 @@ TEST_F(WoundTextureOnGpu, NoDayGivesAnythingButColorsAndShares)
     for (const auto& [name, today] : days) {
         const Maps drawn = draw(executor, maps, today);
         for (const cv::Mat4f& map : {drawn.color, drawn.state, drawn.relief})
-            ASSERT_FALSE(engine::first_non_finite(map)) << name;
+            ASSERT_FALSE(base::first_non_finite(map)) << name;
         std::vector<cv::Mat1f> color, state;
         cv::split(drawn.color, color);
         cv::split(drawn.state, state);
@@ -200,7 +202,7 @@ TEST_F(WoundTextureOnGpu, NoDayGivesAnythingButColorsAndShares)
 // there.
 TEST_F(WoundTextureOnGpu, OnlyTheWoundsOwnRegionIsDrawn)
 {
-    engine::Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     wound::Healing face, contraction, growing;
     contraction.model = wound::HealingModel::contraction;
     growing.model = wound::HealingModel::contraction;
@@ -233,7 +235,7 @@ TEST_F(WoundTextureOnGpu, DayZeroIsThePatchItself)
 {
     const wound::PreparedWound wound = prepared(wound::synthesize({}));
     const passes::WoundMaps maps = passes::upload_wound(gpu::device(), wound.patch);
-    engine::Executor executor(gpu::device(), gpu::shaders());
+    gpu::Executor executor(gpu::device(), gpu::shaders());
     for (const wound::HealingModel model : {wound::HealingModel::contraction, wound::HealingModel::face}) {
         wound::Healing healing;
         healing.model = model;

@@ -5,7 +5,8 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "wound/color.hpp"
+#include "base/color.hpp"
+#include "base/smoothstep.hpp"
 
 namespace wound {
 
@@ -52,12 +53,6 @@ double hue_deg(const cv::Vec3f& lab)
     return std::atan2(lab[2], lab[1]) * 180 / std::numbers::pi;
 }
 
-double smoothstep(double low, double high, double x)
-{
-    const double t = std::clamp((x - low) / (high - low), 0., 1.);
-    return t * t * (3 - 2 * t);
-}
-
 /// Blur of `values` that sees only pixels inside `weight`.
 cv::Mat1f blur_inside(const cv::Mat1f& values, const cv::Mat1f& weight, double sigma)
 {
@@ -96,11 +91,12 @@ double layer_reached(const cv::Vec3f& lab, const cv::Vec3f& skin)
     // more saturated. Fat shows yellower than skin; dried or deep tissue much darker. Skin itself scatters by
     // about 5 CIELAB units.
     const double difference = cv::norm(lab - skin);
-    const double exposed = smoothstep(5, 14, difference); // 0: epidermis intact
-    const double redder = smoothstep(4, 30, lab[1] - skin[1]);
-    const double darker = smoothstep(.25, .7, 1 - lab[0] / std::max(skin[0], 1.F));
+    const double exposed = base::smoothstep(5, 14, difference); // 0: epidermis intact
+    const double redder = base::smoothstep(4, 30, double(lab[1] - skin[1]));
+    const double darker = base::smoothstep(.25, .7, double(1 - lab[0] / std::max(skin[0], 1.F)));
     const double chroma = std::hypot(lab[1], lab[2]);
-    const double yellower = smoothstep(8, 30, hue_deg(lab) - hue_deg(skin)) * smoothstep(8, 20, chroma);
+    const double yellower =
+        base::smoothstep(8, 30, hue_deg(lab) - hue_deg(skin)) * base::smoothstep(8, 20, chroma);
     const double within_dermis = std::clamp(.35 + .65 * std::max(redder, darker), 0., 1.);
     const double within_subcutis = std::max(.5 * yellower, .6 * darker * redder);
     return exposed * (1 + within_dermis * exposed + within_subcutis * exposed);
@@ -112,7 +108,7 @@ cv::Mat1f depth_map(const cv::Mat3f& color, const cv::Mat1f& mask, double width_
     CV_Assert(color.size() == mask.size() && width_mm > 0);
     const double texel_mm = width_mm / mask.cols;
     const cv::Mat1b inside = mask > .5;
-    const cv::Mat3f lab = lab_from_linear(color);
+    const cv::Mat3f lab = base::lab_from_linear(color);
     cv::Mat1f outward, inward;
     cv::distanceTransform(~inside, outward, cv::DIST_L2, cv::DIST_MASK_PRECISE);
     cv::distanceTransform(inside, inward, cv::DIST_L2, cv::DIST_MASK_PRECISE);
@@ -139,10 +135,10 @@ cv::Mat1f depth_map(const cv::Mat3f& color, const cv::Mat1f& mask, double width_
         for (int i = 0; i < depth.cols; ++i) {
             const double in_mm = std::max(inward(j, i) - .5, 0.) * texel_mm;
             const double out_mm = std::max(outward(j, i) - .5, 0.) * texel_mm;
-            const double wall = smoothstep(0, wall_mm, in_mm);
+            const double wall = base::smoothstep(0, wall_mm, in_mm);
             // The rim rises within a third of its width and falls off smoothly over the rest.
             const double rim =
-                smoothstep(0, rim_mm / 3, out_mm) * (1 - smoothstep(rim_mm / 3, rim_mm, out_mm));
+                base::smoothstep(0, rim_mm / 3, out_mm) * (1 - base::smoothstep(rim_mm / 3, rim_mm, out_mm));
             depth(j, i) = inside(j, i) ? static_cast<float>(depth(j, i) * wall)
                                        : static_cast<float>(-options.rim_swelling_mm * rim);
         }

@@ -9,7 +9,7 @@ namespace wound {
 namespace {
 
 constexpr double kMargin =
-    2; // texels: bilinear sampling, and the quarter texel by which the warps' rungs differ
+    2; // texels: bilinear sampling, and the quarter texel by which the warps' models differ
 
 /// Smallest and largest ratio of the area inside the border over all days.
 std::pair<double, double> border_ratios(const Healing& healing)
@@ -64,7 +64,7 @@ cv::Rect drawn_region(const PreparedWound& wound, const Healing& healing)
     const auto [least, largest] = border_ratios(healing);
     constexpr double finer = .75; // between the ratios that are looked at
     for (double ratio = largest;; ratio = std::max(least, finer * ratio)) {
-        const Warp warp = make_warp(wound.flow, ratio, WarpRung::composed);
+        const Warp warp = make_warp(wound.flow, ratio, WarpModel::composed);
         while (region != patch && outline_shows(region, warp, to_opaque))
             region = grown(region, std::max(1, patch.width / 64));
         if (ratio <= std::max(least, kSmallestScale * kSmallestScale) || region == patch)

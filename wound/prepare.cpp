@@ -5,20 +5,15 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
-#include "wound/color.hpp"
+#include "base/color.hpp"
+#include "base/input_error.hpp"
+#include "base/smoothstep.hpp"
 #include "wound/contour.hpp"
-#include "wound/healthy_skin.hpp"
-#include "wound/input_error.hpp"
+#include "wound/photo/healthy_skin.hpp"
 
 namespace wound {
 
 namespace {
-
-float smoothstep(float low, float high, float x)
-{
-    const float t = std::clamp((x - low) / (high - low), 0.F, 1.F);
-    return t * t * (3 - 2 * t);
-}
 
 cv::Vec3f mean_of(const cv::Mat3f& color, const cv::Mat1b& where)
 {
@@ -56,10 +51,11 @@ cv::Mat1f first_opacity(const cv::Mat1f& mask, const cv::Mat1f& picture)
         for (int i = 0; i < mask.cols; ++i) {
             const float x = (static_cast<float>(i) + .5F) * unit - 1,
                         y = (static_cast<float>(j) + .5F) * unit - 1;
-            const float skin = 1 - smoothstep(.02F, .32F, outward(j, i) * unit);
-            const float frame = 1 - smoothstep(.7F, .92F, std::max(std::abs(x), std::abs(y)));
+            const float skin = 1 - base::smoothstep(.02F, .32F, outward(j, i) * unit);
+            const float frame = 1 - base::smoothstep(.7F, .92F, std::max(std::abs(x), std::abs(y)));
             // Skin fades towards the picture's edge; a wound cut by it ends there, as at any other border.
-            opacity(j, i) = skin * frame * std::max(smoothstep(0, .1F, to_gap(j, i) * unit), mask(j, i));
+            opacity(j, i) =
+                skin * frame * std::max(base::smoothstep(0, .1F, to_gap(j, i) * unit), mask(j, i));
         }
     cv::GaussianBlur(opacity, opacity, {},
                      mask.cols / 100.); // distances crease along the border's concavities
@@ -160,20 +156,18 @@ cv::Mat1b day0_mask(const Photograph& photograph, const Preparation& preparation
         return mask;
     const cv::Mat1b picture = picture_area(photograph.srgb);
     if (cv::countNonZero(picture) == 0)
-        throw cicatrix::InputError(preparation.where, "the photograph is black",
-                                   "give one that shows a wound");
+        throw base::InputError(preparation.where, "the photograph is black", "give one that shows a wound");
     return components(picture, 1).front();
 }
 
 void check(const Photograph& photograph, const Preparation& preparation)
 {
     if (photograph.srgb.empty())
-        throw cicatrix::InputError(preparation.where, "the photograph is empty",
-                                   "give a PNG or JPEG picture");
+        throw base::InputError(preparation.where, "the photograph is empty", "give a PNG or JPEG picture");
     if (!(preparation.width_mm >= kLeastWidth_mm && preparation.width_mm <= 200))
-        throw cicatrix::InputError(fmt::format("{}: width_mm", preparation.where),
-                                   fmt::format("{} is out of range", preparation.width_mm),
-                                   "give the wound's longer side, from 0.5 to 200 mm");
+        throw base::InputError(fmt::format("{}: width_mm", preparation.where),
+                               fmt::format("{} is out of range", preparation.width_mm),
+                               "give the wound's longer side, from 0.5 to 200 mm");
     CV_Assert(preparation.patch_size >= 32 && preparation.patch_size <= 4096);
 }
 
@@ -202,7 +196,7 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
     picture_area(srgb).convertTo(whole, CV_32F, 1 / 255.);
     const cv::Mat1f picture = resample(whole, cv::BORDER_CONSTANT);
     Patch patch;
-    patch.color = resample(linear_from_srgb(srgb), cv::BORDER_REPLICATE);
+    patch.color = resample(base::linear_from_srgb(srgb), cv::BORDER_REPLICATE);
     patch.mask = resample_mask(working_mask, resample);
     cv::Mat1f others;
     if (!photograph.other_wounds.empty()) {
@@ -219,7 +213,8 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
     if (!patch.shows_skin)
         skin.setTo(0);
     fill_outside(patch.color, picture, skin,
-                 patch.shows_skin ? mean_of(patch.color, certain) : cv::Vec3f(linear_from_lab(kAverageSkin)));
+                 patch.shows_skin ? mean_of(patch.color, certain)
+                                  : cv::Vec3f(base::linear_from_lab(kAverageSkin)));
     patch.opacity = first_opacity(patch.mask, picture);
     if (!others.empty())
         leave_out(patch, others);
@@ -241,8 +236,8 @@ std::vector<WoundPart> separate(const Photograph& photograph, const Preparation&
     const cv::Mat1b all = given > 127;
     const std::vector<cv::Mat1b> masks = components(all, kMost + 1);
     if (masks.size() > kMost)
-        throw cicatrix::InputError(where, fmt::format("the mask has more than {} components", kMost),
-                                   "paint each wound as one white area, without specks");
+        throw base::InputError(where, fmt::format("the mask has more than {} components", kMost),
+                               "paint each wound as one white area, without specks");
     const PhotoFrame first = photo_frame(largest);
     const double mm_per_pixel = width_mm / (first.side * kWoundShare);
     std::vector<WoundPart> parts;
@@ -287,7 +282,7 @@ PreparedWound prepare_patch(Patch patch, const Preparation& preparation, bool ke
     return wound;
 }
 
-WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day, WarpRung rung)
+WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day, WarpModel level)
 {
     const HealingState state = healing_at(healing, day);
     WoundDay result;
@@ -311,13 +306,13 @@ WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day
         result.phase = phase_at(day, closure_day(healing.curve));
     }
     result.bed_presence =
-        smoothstep(static_cast<float>(kSmallestScale * kSmallestScale), static_cast<float>(kClosedRatio),
-                   static_cast<float>(state.unhealed_ratio));
+        base::smoothstep(static_cast<float>(kSmallestScale * kSmallestScale),
+                         static_cast<float>(kClosedRatio), static_cast<float>(state.unhealed_ratio));
     result.scar = scar_at(healing, day);
-    result.border_warp = make_warp(wound.flow, state.border_ratio, rung);
+    result.border_warp = make_warp(wound.flow, state.border_ratio, level);
     result.bed_warp = state.unhealed_ratio == state.border_ratio
                           ? result.border_warp
-                          : make_warp(wound.flow, state.unhealed_ratio, rung);
+                          : make_warp(wound.flow, state.unhealed_ratio, level);
     return result;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "wound/depth.hpp"
-#include "wound/segmentation.hpp"
+#include "wound/photo/segmentation.hpp"
 #include "wound/wound.hpp"
 
 namespace wound {
@@ -26,7 +26,7 @@ struct Preparation
 
 /// Segments (or checks the given mask), takes the largest wound, resamples a square patch around the centroid
 /// and measures border, control points, depth and the contraction's flow in it. The colour is the
-/// photograph's own; match_to_skin() fits it to a face. Throws cicatrix::InputError.
+/// photograph's own; match_to_skin() fits it to a face. Throws base::InputError.
 PreparedWound prepare(const Photograph& photograph, const Preparation& preparation);
 
 /// One of the wounds of a photograph, and how it lies there.
@@ -39,7 +39,7 @@ struct WoundPart
 
 /// The wounds of a photograph, the largest first, each with its mask: the components of the given one, or of
 /// what segment() finds. All are at the scale that `preparation.width_mm`, the largest one's, gives. Throws
-/// cicatrix::InputError for a mask that checked_mask() refuses or of more than 64 components, and as
+/// base::InputError for a mask that checked_mask() refuses or of more than 64 components, and as
 /// segment() does.
 std::vector<WoundPart> separate(const Photograph& photograph, const Preparation& preparation);
 
@@ -51,6 +51,6 @@ PreparedWound prepare_patch(Patch patch, const Preparation& preparation, bool ke
 
 /// What the wound is on a day: ratios and both backward warps.
 WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day,
-                  WarpRung rung = WarpRung::grid);
+                  WarpModel model = WarpModel::grid);
 
 } // namespace wound

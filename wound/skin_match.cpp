@@ -7,11 +7,11 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "wound/color.hpp"
-#include "wound/glints.hpp"
-#include "wound/healthy_skin.hpp"
+#include "base/color.hpp"
+#include "base/smoothstep.hpp"
 #include "wound/membrane.hpp"
-#include "wound/smooth.hpp"
+#include "wound/photo/healthy_skin.hpp"
+#include "wound/photo/specular_highlights.hpp"
 
 namespace wound {
 namespace {
@@ -114,7 +114,7 @@ Vec3f bed_gain(const Vec3f& log_skin, std::optional<float> blood)
     // Pale hues come with light skin only; the browner ones span all but the lightest.
     const float least = std::lerp(std::log(.30f), std::log(.05f), tone),
                 most = std::lerp(std::log(.65f), std::log(.35f), tone);
-    const float seen_light = std::log(luminance(linear));
+    const float seen_light = std::log(base::luminance(linear));
     const float exposure = std::clamp(.6f * (std::clamp(seen_light, least, most) - seen_light), -.45f, .45f);
     const float even = exposure - (red + blue) / 3; // a change of balance shall not change exposure as well
     return {even + red, even, even + blue};
@@ -178,7 +178,7 @@ HealthySkin assumed_skin(const Face& face)
     if (face.log_green)
         skin.log_color = {float(mean[0]), float(mean[1]), float(mean[2])};
     else
-        cv::log(Vec3f(linear_from_lab(kAverageSkin)), skin.log_color);
+        cv::log(Vec3f(base::linear_from_lab(kAverageSkin)), skin.log_color);
     return skin;
 }
 
@@ -211,7 +211,7 @@ cv::Mat3f skin_gain(const cv::Mat3f& log_photo, const HealthySkin& skin, const F
         for (int x = 0; x < grid; ++x) {
             const float even = even_part(log_photo(y, x) - healthy(y, x));
             const float beyond = even - std::clamp(even, -.05f, .05f); // so much varies from pore to pore
-            shade(y, x) = std::clamp(beyond, -2.f, 2.f) * smooth(.05f, .5f, skin.outwardness(y, x));
+            shade(y, x) = std::clamp(beyond, -2.f, 2.f) * base::smoothstep(.05f, .5f, skin.outwardness(y, x));
         }
     cv::GaussianBlur(shade, shade, {7, 7}, 1.5);
     for (int y = 0; y < grid; ++y)
@@ -225,7 +225,8 @@ float present(const cv::Mat1f& valid_around, int x, int y)
 {
     const int n = valid_around.rows;
     const int to_frame = std::min({x, y, n - 1 - x, n - 1 - y});
-    return smooth(0, .05f * float(n), float(to_frame)) * smooth(.6f, 1, valid_around(y, x));
+    return base::smoothstep(0, .05f * float(n), float(to_frame)) *
+           base::smoothstep(.6f, 1, valid_around(y, x));
 }
 
 template <class Map>
@@ -301,8 +302,8 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
 
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
-            const float in_bed = smooth(.1f, .9f, border(y, x));
-            const float around = skin.found ? 1 - smooth(.40f, .90f, outwardness(y, x)) : 0;
+            const float in_bed = base::smoothstep(.1f, .9f, border(y, x));
+            const float around = skin.found ? 1 - base::smoothstep(.40f, .90f, outwardness(y, x)) : 0;
             result.opacity(y, x) = std::max(in_bed, around) * present(valid_around, x, y);
             const float raw = in_bed * rawness(y, x) + (1 - in_bed) * foreignness(y, x);
             log_photo(y, x) += (gain(y, x) + detail(y, x) * health(y, x)) * (1 - raw) + bed * raw;

@@ -7,11 +7,11 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "wound/healing.hpp"
+#include "wound/healing/healing.hpp"
+#include "wound/healing/phases.hpp"
+#include "wound/healing/scar.hpp"
 #include "wound/patch.hpp"
-#include "wound/phases.hpp"
-#include "wound/scar.hpp"
-#include "wound/warp.hpp"
+#include "wound/warp/warp.hpp"
 
 namespace wound {
 

@@ -1,4 +1,4 @@
-// Diffuse reflectance of layered tissue in single precision: the analytic rungs (docs/optics.md). The double-precision reference is
+// Diffuse reflectance of layered tissue in single precision: the analytic levels (docs/optics.md). The double-precision reference is
 // wound/reflectance.cpp; a test compares the two. All functions are finite for sigma <= 1e6 mm^-1, any thickness,
 // n in 1..3, g in -1..1, except the printed equations, which overflow far outside their domain.
 #ifndef LIB_REFLECTANCE_GLSL

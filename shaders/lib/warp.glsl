@@ -2,7 +2,7 @@
 // The double-precision twin is wound/warp.cpp. The including shader declares, in a buffer of layout(scalar), `vec2 warp_values[]`.
 #include "../shared/warp.h"
 
-const uint WARP_RADIAL = 0, WARP_GRID = 1, WARP_DENSE = 2, WARP_COMPOSED = 3; // wound::WarpRung
+const uint WARP_RADIAL = 0, WARP_GRID = 1, WARP_DENSE = 2, WARP_COMPOSED = 3; // wound::WarpModel
 
 vec2 warp_radial(WarpHeader warp, vec2 p)
 {
@@ -61,12 +61,12 @@ vec2 warp_steps(WarpHeader warp, vec2 p)
     return p;
 }
 
-/// `rung` should be a specialisation constant, so that the other rungs are not compiled in.
-vec2 warp_backward(uint rung, WarpHeader warp, vec2 p)
+/// `model` should be a specialisation constant, so that the other models are not compiled in.
+vec2 warp_backward(uint model, WarpHeader warp, vec2 p)
 {
-    if (rung == WARP_RADIAL)
+    if (model == WARP_RADIAL)
         return warp_radial(warp, p);
-    if (rung == WARP_GRID)
+    if (model == WARP_GRID)
         return warp_grid(warp, p);
     return warp_steps(warp, p);
 }

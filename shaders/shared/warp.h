@@ -1,5 +1,5 @@
 // One backward warp as the compute shader sees it: a header, and its numbers from values[first] on in one array of vec2 that
-// several warps may share. What the numbers are depends on the rung:
+// several warps may share. What the numbers are depends on the model:
 //   radial    `count` radii of the hull, in .x, at equal angles from -pi
 //   grid      `count` node positions (x, y along each axis), then count x count day-0 coordinates, row by row
 //   dense, composed   `steps` thin-plate steps, today's first, of 3 affine coefficients and `count` pairs (centre, weight)
@@ -16,7 +16,7 @@ struct WarpHeader
     vec2 center;        // the centroid (a GLSL keyword), the fixed point, in patch coordinates
     float scale;        // sqrt(area ratio)
     float grid_epsilon; // patch units: the grid is finest within this distance of the centroid
-    uint rung;          // wound::WarpRung
+    uint model;          // wound::WarpModel
     uint first;         // index into the array of values
     uint count;
     uint steps;

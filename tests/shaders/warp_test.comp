@@ -4,7 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/warp.h"
 
-layout(constant_id = 0) const uint RUNG = 0; // wound::WarpRung
+layout(constant_id = 0) const uint WARP_MODEL = 0; // wound::WarpModel
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0, rgba32f) uniform writeonly image2D day0;
@@ -19,5 +19,5 @@ void main()
     if (any(greaterThanEqual(texel, size)))
         return;
     const vec2 p = (vec2(texel) + 0.5) * 2 / vec2(size) - 1;
-    imageStore(day0, texel, vec4(warp_backward(RUNG, header, p), 0, 0));
+    imageStore(day0, texel, vec4(warp_backward(WARP_MODEL, header, p), 0, 0));
 }

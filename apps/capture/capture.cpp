@@ -1,0 +1,131 @@
+#include "apps/capture/capture.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <future>
+#include <optional>
+
+#include "base/file.hpp"
+#include "base/number_option.hpp"
+#include "scene/command_line.hpp"
+#include "stage/capture.hpp"
+#include "stage/labels.hpp"
+
+namespace capture_command {
+namespace {
+
+struct CommandOptions : scene::SceneOptions
+{
+    stage::CaptureOptions capture;
+    bool no_cost = false, labels = false;
+};
+
+void run_capture(CommandOptions& options)
+{
+    const scene::Scene scene = scene::chosen_scene(options);
+    options.capture.cost = !options.no_cost;
+    if (!options.scene.empty())
+        options.capture.title = std::filesystem::path(options.scene).stem().string();
+    if (options.mode == "published")
+        options.capture.mode = options.mode;
+    stage::check_capture(options.capture, scene);
+    base::make_folder(options.capture.out);
+    if (options.capture.video.has_parent_path())
+        base::make_folder(options.capture.video.parent_path());
+    auto props = std::async(std::launch::async, [&scene] { return stage::Stage::prepare(scene); });
+    stage::Renderer renderer(stage::device_options(options));
+    const stage::Stage stage(renderer.device, props.get());
+    for (const std::string& note : stage.loaded().notes)
+        fmt::print(stderr, "note: {}\n", note);
+
+    std::optional<stage::LabelFiles> labels;
+    if (options.labels) {
+        labels.emplace(renderer, options.capture.out, options.capture.tile);
+        options.capture.after_picture = [&](const stage::Stage& shown, const scene::Shot& shot,
+                                            nlohmann::json& entry) { labels->add(shown, shot, entry); };
+    }
+
+    base::Progress progress;
+    std::vector<std::string> lines;
+    const nlohmann::json record = stage::capture(renderer, stage, options.capture, progress, lines);
+    if (labels)
+        labels->finish();
+    progress.clear();
+    fmt::print("{} pictures, healing.png and capture.json in {}\n", record["days"].size(),
+               options.capture.out.string());
+    for (const nlohmann::json& film : record.value("films", nlohmann::json::array()))
+        fmt::print("{} frames in {}\n", film["frames"].size(), film["file"].get<std::string>());
+    if (labels)
+        fmt::print("labels: labels.json, coco.json and, to look at, labels.png\n");
+    for (const std::string& line : lines)
+        fmt::print("{}\n", line);
+}
+
+} // namespace
+
+void add(CLI::App& program)
+{
+    auto options = std::make_shared<CommandOptions>();
+    CLI::App* command =
+        program.add_subcommand("capture", "Pictures of a wound healing, day by day, and what each cost");
+    scene::add_scene_options(*command, *options);
+    command
+        ->add_option("--out", options->capture.out, "Folder for the pictures, healing.png and capture.json")
+        ->capture_default_str()
+        ->type_name("DIR");
+    std::string views = "Views to show, separated by commas: the scene's own, or";
+    for (const auto& [name, shows] : scene::standard_views())
+        views += fmt::format(" {} ({}),", name, shows);
+    views.pop_back();
+    command->add_option("--views", options->capture.views, views)
+        ->delimiter(',')
+        ->allow_extra_args(false) // what follows may be the scene
+        ->type_name("NAMES");
+    command
+        ->add_option("--orbit", options->capture.orbit,
+                     "So many pictures around the head instead of one per day; the day moves from the first "
+                     "to the last of --days meanwhile")
+        ->transform(base::whole_number_from(1, 10000))
+        ->type_name("N");
+    command->add_option("--orbit-degrees", options->capture.orbit_deg, "How far around")
+        ->type_name("DEGREES")
+        ->check(base::number_from(-3600, 3600))
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--video", options->capture.video,
+            "A film as well, the day moving evenly from the first to the last of --days; with --orbit "
+            "the camera goes around. Needs the program ffmpeg")
+        ->type_name("FILE.mp4");
+    command->add_option("--duration", options->capture.duration_s, "Of the film")
+        ->type_name("SECONDS")
+        ->check(base::number_from(0.01, 3600))
+        ->capture_default_str();
+    command->add_option("--fps", options->capture.fps, "Its frames per second")
+        ->type_name("N")
+        ->check(base::number_from(1, 240))
+        ->capture_default_str();
+    command->add_flag("--transparent", options->capture.transparent,
+                      "Nothing behind the head: PNG with straight alpha, EXR premultiplied");
+    command->add_flag("--exr", options->capture.exr,
+                      "Also each picture's linear light as OpenEXR, before exposure and encoding");
+    command
+        ->add_option("--tile", options->capture.tile,
+                     "Pictures with a longer side are drawn in tiles of at most so many pixels a side")
+        ->capture_default_str()
+        ->type_name("PX");
+    command->add_flag(
+        "--labels", options->labels,
+        "For every picture: classes, wounds, mask, depth and distance as images, areas in pixels "
+        "and mm2, camera, labels.json, coco.json (docs/labels.md)");
+    command->add_flag("--no-cost", options->no_cost, "Leave out the cost measurement at the end");
+    command->footer("Examples:\n"
+                    "  cicatrix capture --days 0:30:3 --wound photo.jpg --mask mask.png --out healing\n"
+                    "  cicatrix capture --days 0:30:10 --views front,left,close-up\n"
+                    "  cicatrix capture --days 0,30 --video healing.mp4 --duration 10\n"
+                    "  cicatrix capture --days 5 --orbit 36 --transparent --size 800x800\n"
+                    "  cicatrix capture --days 0,9,18 --labels --no-cost");
+    command->callback([options] { run_capture(*options); });
+}
+
+} // namespace capture_command

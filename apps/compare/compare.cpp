@@ -1,0 +1,304 @@
+#include "apps/compare/compare.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fmt/format.h>
+#include <future>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "base/color.hpp"
+#include "base/contact_sheet.hpp"
+#include "base/file.hpp"
+#include "base/image_io.hpp"
+#include "base/input_error.hpp"
+#include "base/number_option.hpp"
+#include "base/progress.hpp"
+#include "base/statistics.hpp"
+#include "scene/command_line.hpp"
+#include "scene/file.hpp"
+#include "scene/shots.hpp"
+#include "stage/measurement.hpp"
+#include "stage/renderer.hpp"
+
+namespace compare_command {
+namespace {
+using nlohmann::json;
+
+struct CompareOptions : scene::SceneOptions
+{
+    std::string other; // the second scene
+    std::filesystem::path out = "out/compare";
+    std::vector<std::string> views;
+    int rounds = 9; // of the cost measurement
+};
+
+// ---- The page: a row for each picture, A | B | difference, and a bar that says what its colours mean
+
+constexpr int cell_width = 420, gap = 12, title_height = 44, label_height = 30, bar_width = 90;
+constexpr std::size_t most_rows = 24; // chosen evenly from all pictures
+const cv::Scalar ink(40, 40, 44);
+
+struct Row
+{
+    cv::Mat3b a, b;
+    cv::Mat1f difference;
+    cv::Mat1b head;
+    std::string label;
+};
+
+cv::Mat3b in_colors(const cv::Mat1f& difference, double top)
+{
+    cv::Mat1b level;
+    difference.convertTo(level, CV_8U, 255 / top);
+    cv::Mat bgr;
+    cv::applyColorMap(level, bgr, cv::COLORMAP_INFERNO);
+    cv::Mat3b rgb;
+    cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+    return rgb;
+}
+
+/// 1, 2 or 5 times a power of ten, not below `value`.
+double round_above(double value)
+{
+    const double power = std::pow(10, std::floor(std::log10(std::max(value, .1))));
+    for (const double step : {1., 2., 5.})
+        if (step * power >= value)
+            return step * power;
+    return 10 * power;
+}
+
+void draw_bar(cv::Mat3b& page, cv::Rect area, double top)
+{
+    cv::Mat1f ramp(area.height, 1);
+    for (int y = 0; y < area.height; ++y)
+        ramp(y) = float(top * (area.height - 1 - y) / std::max(1, area.height - 1));
+    cv::resize(in_colors(ramp, top), page(area), area.size(), 0, 0, cv::INTER_NEAREST);
+    for (const double share : {0., .25, .5, .75, 1.})
+        base::draw_label(page, fmt::format("{}{:g}", share == 1 ? ">= " : "", share * top),
+                         {area.br().x + 4, int(area.br().y - share * (area.height - 12))}, 10, ink);
+}
+
+cv::Mat3b draw_page(const std::array<std::string, 3>& titles, const std::vector<Row>& rows, double top)
+{
+    const int cell_height = std::max(1, rows[0].a.rows * cell_width / rows[0].a.cols);
+    cv::Mat3b page(title_height + int(rows.size()) * (cell_height + label_height) + gap,
+                   gap + 3 * (cell_width + gap) + bar_width, cv::Vec3b(250, 249, 247));
+    const auto paste = [&](const cv::Mat3b& picture, int column, int y) {
+        cv::resize(picture, page(cv::Rect(gap + column * (cell_width + gap), y, cell_width, cell_height)),
+                   {cell_width, cell_height}, 0, 0, cv::INTER_AREA);
+    };
+    for (int column = 0; column < 3; ++column)
+        base::draw_label(page, titles[std::size_t(column)],
+                         {gap + column * (cell_width + gap), title_height - 16}, 14, ink);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const int y = title_height + int(i) * (cell_height + label_height);
+        paste(rows[i].a, 0, y);
+        paste(rows[i].b, 1, y);
+        cv::Mat3b map = in_colors(rows[i].difference, top);
+        map.setTo(cv::Scalar(225, 225, 228), ~rows[i].head);
+        paste(map, 2, y);
+        base::draw_label(page, rows[i].label, {gap, y + cell_height + 20}, 11, ink);
+    }
+    draw_bar(page, {gap + 3 * (cell_width + gap), title_height, 18, cell_height}, top);
+    return page;
+}
+
+// ---- The comparison
+
+std::string name_of(const std::string& file)
+{
+    return file.empty() ? "default scene" : std::filesystem::path(file).stem().string();
+}
+
+std::array<scene::Scene, 2> both_scenes(const CompareOptions& options)
+{
+    scene::SceneOptions second = options;
+    second.scene = options.other;
+    std::array<scene::Scene, 2> scenes{scene::chosen_scene(options), scene::chosen_scene(second)};
+    if (scenes[0].size != scenes[1].size)
+        throw base::InputError(options.other + ": size", "is not that of " + options.scene,
+                               "make them equal, or give --size");
+    if (scenes[0].days != scenes[1].days)
+        throw base::InputError(options.other + ": days", "are not those of " + options.scene,
+                               "make them equal, or give --days");
+    return scenes;
+}
+
+/// Draws both in turn and compares the medians of the forward pass.
+json interleaved_cost(stage::Renderer& renderer, const std::array<const stage::Stage*, 2>& stages,
+                      const std::array<scene::Shot, 2>& shots, int rounds)
+{
+    std::vector<stage::MeasuredCase> cases;
+    for (std::size_t side = 0; side < 2; ++side)
+        cases.push_back({side == 0 ? "a" : "b", "",
+                         [&stage = *stages[side], &shot = shots[side]](graph::Graph& graph, double) {
+                             graph.readback("picture", stage
+                                                           .declare(graph, {.day = shot.day,
+                                                                            .tile = stage.scene().size,
+                                                                            .camera = shot.camera})
+                                                           .images.picture);
+                         }});
+    const std::vector<stage::Measurement> measured = stage::measure(
+        renderer.device, renderer.shaders, cases, {.warm_up = 2, .counted = 0, .timed = rounds});
+    const double a = base::median(stage::pass_ms(measured[0], "forward"));
+    const double b = base::median(stage::pass_ms(measured[1], "forward"));
+    return {{"rounds", rounds}, {"forward_ms", {{"a", a}, {"b", b}}}, {"forward_b_over_a", b / a}};
+}
+
+/// Shots of both scenes under the same names.
+std::array<std::vector<scene::Shot>, 2> both_shots(const std::array<const stage::Stage*, 2>& stages,
+                                                   const std::vector<std::string>& views)
+{
+    std::array<std::vector<scene::Shot>, 2> shots;
+    for (std::size_t side = 0; side < 2; ++side)
+        shots[side] = scene::shots_of_days(stages[side]->scene().days,
+                                           scene::chosen_views(stages[side]->loaded(), views));
+    if (!std::ranges::equal(shots[0], shots[1], {}, &scene::Shot::name, &scene::Shot::name))
+        throw base::InputError("the scenes' views", "are not the same", "name those to compare with --views");
+    return shots;
+}
+
+json record_of(const scene::Shot& shot, const ColorDifference& difference)
+{
+    json record{
+        {"day", shot.day},
+        {"head_pixels", difference.pixels},
+        {"delta_e2000",
+         {{"mean", difference.mean}, {"percentile_95", difference.percentile_95}, {"max", difference.max}}}};
+    if (!shot.view.empty())
+        record["view"] = shot.view;
+    return record;
+}
+
+void run_compare(const CompareOptions& options)
+{
+    const std::array<scene::Scene, 2> scenes = both_scenes(options);
+    base::make_folder(options.out);
+    auto first = std::async(std::launch::async, [&] { return stage::Stage::prepare(scenes[0]); });
+    auto second = std::async(std::launch::async, [&] { return stage::Stage::prepare(scenes[1]); });
+    stage::Renderer renderer(stage::device_options(options));
+    const stage::Stage a(renderer.device, first.get()), b(renderer.device, second.get());
+    for (const stage::Stage* stage : {&a, &b})
+        for (const std::string& note : stage->loaded().notes)
+            fmt::print(stderr, "note: {}: {}\n", name_of(stage == &a ? options.scene : options.other), note);
+    const auto shots = both_shots({&a, &b}, options.views);
+
+    base::Progress progress;
+    progress.expect(shots[0].size() + 1);
+    stage::DrawOptions drawing;
+    drawing.size = scenes[0].size;
+    json days = json::array();
+    std::vector<Row> rows;
+    double top = 0;
+    const std::size_t stride = (shots[0].size() + most_rows - 1) / most_rows;
+    for (std::size_t i = 0; i < shots[0].size(); ++i) {
+        progress.show(shots[0][i].name);
+        drawing.transparent = true;
+        const ColorDifference difference =
+            color_difference(stage::draw(renderer, a, shots[0][i], drawing).picture,
+                             stage::draw(renderer, b, shots[1][i], drawing).picture);
+        days.push_back(record_of(shots[0][i], difference));
+        if (i % stride == 0) {
+            drawing.transparent = false;
+            const std::string view = shots[0][i].view.empty() ? "" : "   " + shots[0][i].view;
+            rows.push_back(
+                {stage::draw(renderer, a, shots[0][i], drawing).picture,
+                 stage::draw(renderer, b, shots[1][i], drawing).picture, difference.map, difference.head,
+                 fmt::format(
+                     "day {:g}{}   dE2000 on the head: mean {:.2f}, 95 % below {:.2f}, at most {:.2f}",
+                     shots[0][i].day, view, difference.mean, difference.percentile_95, difference.max)});
+        }
+        top = std::max(top, difference.percentile_99_9);
+        progress.step();
+    }
+    progress.show("cost");
+    const json cost = interleaved_cost(renderer, {&a, &b}, {shots[0][0], shots[1][0]}, options.rounds);
+    progress.clear();
+
+    const std::string name_a = name_of(options.scene), name_b = name_of(options.other);
+    base::write_png(
+        options.out / "compare.png",
+        draw_page({"A: " + name_a, "B: " + name_b, "difference, dE2000"}, rows, round_above(top)));
+    stage::fail_on_validation(renderer.device);
+    base::write_json(options.out / "compare.json", {{"device", renderer.device.info().name},
+                                                    {"a", scene::to_json(scenes[0])},
+                                                    {"b", scene::to_json(scenes[1])},
+                                                    {"days", days},
+                                                    {"cost", cost}});
+    for (const Row& row : rows)
+        fmt::print("{}\n", row.label);
+    fmt::print("forward pass: A {:.1f} ms, B {:.1f} ms, B / A {:.2f} (medians of {}, in turn)\n"
+               "compare.png and compare.json in {}\n",
+               cost["forward_ms"]["a"].get<double>(), cost["forward_ms"]["b"].get<double>(),
+               cost["forward_b_over_a"].get<double>(), options.rounds, options.out.string());
+}
+
+} // namespace
+
+ColorDifference color_difference(const cv::Mat4b& a, const cv::Mat4b& b)
+{
+    CV_Assert(a.size() == b.size());
+    ColorDifference result{cv::Mat1f(a.size(), 0.f), cv::Mat1b(a.size(), uchar(0))};
+    std::vector<float> values;
+    for (int y = 0; y < a.rows; ++y)
+        for (int x = 0; x < a.cols; ++x) {
+            const cv::Vec4b &p = a(y, x), &q = b(y, x);
+            if (p[3] < 255 || q[3] < 255)
+                continue;
+            const auto lab = [](const cv::Vec4b& pixel) {
+                return base::lab_from_linear(base::linear_from_srgb8({pixel[0], pixel[1], pixel[2]}));
+            };
+            const double difference = p == q ? 0 : base::delta_e2000(lab(p), lab(q));
+            result.map(y, x) = float(difference);
+            result.head(y, x) = 255;
+            result.mean += difference;
+            values.push_back(float(difference));
+        }
+    result.pixels = int(values.size());
+    if (values.empty())
+        return result;
+    result.mean /= double(values.size());
+    std::ranges::sort(values);
+    const auto percentile = [&](double share) {
+        return values[std::size_t(share * double(values.size() - 1))];
+    };
+    result.percentile_95 = percentile(.95);
+    result.percentile_99_9 = percentile(.999);
+    result.max = values.back();
+    return result;
+}
+
+void add(CLI::App& program)
+{
+    auto options = std::make_shared<CompareOptions>();
+    CLI::App* command = program.add_subcommand(
+        "compare", "Two scenes side by side: where they differ, by how much, and what each costs");
+    scene::add_scene_options(*command, *options);
+    command->get_option("scene")->required()->description("First scene, A (docs/scene.md)");
+    command
+        ->add_option("other", options->other,
+                     "Second scene, B, of the same size and days; the options below hold for both")
+        ->required()
+        ->type_name("OTHER.json");
+    command
+        ->add_option("--views", options->views,
+                     "Views to compare, as in cicatrix capture, separated by commas")
+        ->delimiter(',')
+        ->type_name("NAMES");
+    command->add_option("--rounds", options->rounds, "How often each is drawn to measure its cost")
+        ->transform(base::whole_number_from(1, 1000))
+        ->capture_default_str();
+    command->add_option("--out", options->out, "Folder for compare.png and compare.json")
+        ->capture_default_str()
+        ->type_name("DIR");
+    command->footer("Example: cicatrix compare scenes/translucency_published.json "
+                    "scenes/translucency_bounded.json --days 0 --out out/translucency\n"
+                    "A difference of 1 (CIEDE2000) is just noticeable. Whatever a scene file can say can be "
+                    "compared: shading models, lights, tissue, healing.");
+    command->callback([options] { run_compare(*options); });
+}
+
+} // namespace compare_command

@@ -1,0 +1,12 @@
+// `cicatrix demo [SCENE]`: the window.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace demo_command {
+
+void add(CLI::App& program);
+
+} // namespace demo_command

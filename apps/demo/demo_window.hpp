@@ -1,0 +1,122 @@
+// The demo's loop: waits for events, renders what changed, shows it. When nothing changes it sleeps.
+#pragma once
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <optional>
+
+#include "apps/demo/events.hpp"
+#include "apps/demo/history.hpp"
+#include "apps/demo/ui.hpp"
+#include "base/film.hpp"
+#include "engine/window/swapchain.hpp"
+#include "engine/window/ui.hpp"
+#include "engine/window/window.hpp"
+#include "scene/command_line.hpp"
+#include "stage/renderer.hpp"
+#include "stage/stage.hpp"
+
+namespace demo_command {
+
+struct DemoOptions : scene::SceneOptions
+{
+    double scale = 0; // of text and controls; 0: the screen's
+    std::filesystem::path events, screenshot;
+};
+
+class DemoWindow
+{
+  public:
+    /// Opens the window at once; the head is read meanwhile. Throws base::InputError without a display or
+    /// a fit device.
+    explicit DemoWindow(const DemoOptions& options);
+    ~DemoWindow();
+
+    /// Until the user closes the window.
+    void run();
+
+  private:
+    // The loop.
+    void step();
+    bool may_close();                       // when asked to; asks back
+    std::optional<double> patience() const; // until the next step; none: until something happens
+    void finish_loading();
+    void tell_idle();
+
+    // What is shown.
+    bool render();
+    enum class Drawn : std::uint8_t
+    {
+        Already, // what would be drawn is there
+        Now,
+        NotNow
+    };
+    Drawn draw_picture(double scale);
+    window::WindowFrame frame(const ImDrawData* ui) const;
+    std::array<std::uint32_t, 2> view_pixels() const;
+    void tell_facts(); // to the interface
+    void save_screenshot();
+    std::string rescue() const; // the scene, when the display is lost; returns how to go on
+
+    // What is edited; each reports what goes wrong in the window.
+    void apply_edits();
+    void show_scene();
+    void match_comparison();
+    double compared_day(double day) const { return state_.compare == Compare::Day0 ? 0 : day; }
+    scene::Scene compared_scene() const;
+    bool unsaved() const; // edits, other than of the camera
+    void grant_wishes();
+    void grant_edits();
+    std::optional<glm::dvec3> place_at(const glm::dvec2& at) const; // on the skin; 0..1 of the view
+    void put_wound(const glm::dvec2& at);
+    void move_wound(const glm::dvec2& to);
+    void go_to(const scene::Scene& scene);
+
+    // Files.
+    void open(const std::filesystem::path& file);
+    void open_scene(const std::filesystem::path& file);
+    void open_photo(const std::filesystem::path& file, std::optional<std::size_t> wound);
+    void use_photo();
+    void save_scene(std::filesystem::path file);
+    void save_picture(std::filesystem::path file);
+    void start_film(std::filesystem::path file);
+    void record_picture(); // of the film
+    cv::Mat3b picture_of(double day,
+                         const stage::DrawOptions& options); // as the window shows it, split or not
+    void show_in_dialog(const cv::Mat3b& picture);
+    template <typename Work>
+    void attempt(Work work); // an error in it becomes a notice
+
+    DemoOptions options_;
+    DemoEvents events_;
+    DemoState state_;
+    window::Window window_;
+    std::unique_ptr<stage::Renderer> renderer_;
+    std::unique_ptr<window::Swapchain> swapchain_;
+    std::unique_ptr<window::Ui> ui_;
+    std::unique_ptr<gpu::Texture> photo_; // in the dialog
+    struct Recording
+    {
+        std::unique_ptr<base::Film> film;
+        std::filesystem::path file;
+        stage::DrawOptions options;
+        std::size_t next = 0, pictures = 0;
+    };
+    std::optional<Recording> recording_;
+    std::future<stage::Stage::Preparation> loading_;
+    std::unique_ptr<stage::Stage> stage_;
+    std::optional<stage::Stage> compared_; // right of the divider
+    History history_{scene::Scene{}};
+    scene::Scene on_disk_; // as it was read or saved last
+    Quality quality_;
+    VkImage picture_ = VK_NULL_HANDLE;
+    std::array<std::uint32_t, 2> picture_size_{};
+    int settle_ = 2; // steps that ImGui still needs to come to rest after an event
+    bool on_screen_ = false, told_idle_ = false, told_picture_ = false;
+    double last_step_ = 0, fading_until_ = 0; // what lies behind a dialog grows dark
+    Dialog shown_dialog_ = Dialog::None;
+    std::size_t shown_notices_ = 0;
+    std::uint64_t frames_ = 0, pictures_ = 0;
+};
+
+} // namespace demo_command

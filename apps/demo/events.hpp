@@ -1,0 +1,24 @@
+// What the window has done, one JSON object a line, for tests that drive it: they wait for an event instead
+// of a time.
+#pragma once
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace demo_command {
+
+class DemoEvents
+{
+  public:
+    /// An empty path: nobody listens. Throws base::InputError when the file cannot be written.
+    explicit DemoEvents(const std::filesystem::path& file);
+
+    bool wanted() const { return stream_.is_open(); }
+    /// Written at once.
+    void tell(const std::string& event, nlohmann::json details = nlohmann::json::object());
+
+  private:
+    std::ofstream stream_;
+};
+
+} // namespace demo_command

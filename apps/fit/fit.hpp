@@ -1,0 +1,12 @@
+// `cicatrix fit AREAS.csv`: healing curves fitted to a table of measured areas. Needs no Vulkan device.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace fit_command {
+
+void add(CLI::App& program);
+
+} // namespace fit_command

@@ -1,0 +1,12 @@
+// `cicatrix graph`: the schedule of a scene's frames, as text and as Graphviz.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace graph_command {
+
+void add(CLI::App& program);
+
+} // namespace graph_command

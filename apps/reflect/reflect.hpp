@@ -1,0 +1,27 @@
+// `cicatrix reflect TISSUE.json`: what layered tissue reflects, transmits and absorbs, by any level of the
+// ladder.
+#pragma once
+#include <iosfwd>
+#include <string>
+
+#include "wound/optics/reflectance.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace reflect_command {
+
+struct ReflectOptions
+{
+    std::string tissue; // a preset's name or a file
+    optics::ReflectanceModel model = optics::ReflectanceModel::TwoStream;
+    optics::ReflectanceOptions reflectance_options;
+};
+
+/// Writes one JSON object to `out`; to `notes`, lines on where the model does not hold.
+void reflect(const ReflectOptions& options, std::ostream& out, std::ostream& notes);
+
+void add(CLI::App& app);
+
+} // namespace reflect_command

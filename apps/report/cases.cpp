@@ -1,0 +1,85 @@
+#include "apps/report/cases.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/file.hpp"
+#include "wound/optics/tissue_choice.hpp"
+
+namespace report_command {
+namespace {
+
+/// The camera on its way around the head, `degrees` further to the viewer's right.
+head::Camera orbited(const head::Camera& camera, double degrees)
+{
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1), glm::radians(degrees), glm::dvec3(0, 1, 0));
+    return {camera.target + glm::dvec3(turn * glm::dvec4(camera.eye - camera.target, 0)), camera.target,
+            camera.fov_deg};
+}
+
+/// Tissue that absorbs `factor` times as much.
+optics::HealingTissue tinted(optics::HealingTissue tissue, double factor)
+{
+    if (auto* table = std::get_if<optics::SkinLayers>(&tissue)) {
+        for (optics::Layer& layer : table->layers)
+            for (double& sigma_a : layer.sigma_a)
+                sigma_a *= factor;
+        return tissue;
+    }
+    auto& skin = std::get<optics::ChromophoreSkin>(tissue);
+    for (optics::Chromophores* content : {&skin.epidermis, &skin.dermis, &skin.subcutis}) {
+        content->blood *= factor;
+        content->melanosomes *= factor;
+    }
+    return tissue;
+}
+
+} // namespace
+
+std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage)
+{
+    const scene::Scene& scene = stage.scene();
+    const auto [first, last] = std::ranges::minmax(scene.days);
+    const double span = last > first ? last - first : 10;
+    constexpr double arc_deg = 40, tint = 0.2;
+    const auto declare = [&stage](graph::Graph& graph, double day, const head::Camera& camera) {
+        const scene::Scene& now = stage.scene();
+        graph.readback(
+            "picture",
+            stage.declare(graph, {.day = day, .tile = now.size, .camera = camera, .shading = now.shading})
+                .images.picture);
+    };
+    const optics::HealingTissue tissue = optics::healing_tissue_or_file(scene.tissue);
+    return {
+        {"still frame", "nothing changes",
+         [=, &stage](graph::Graph& graph, double) { declare(graph, first, stage.loaded().camera()); }},
+        {"moving camera", fmt::format("the camera goes {:g} degrees around the head", arc_deg),
+         [=, &stage](graph::Graph& graph, double position) {
+             declare(graph, first, orbited(stage.loaded().camera(), arc_deg * position));
+         }},
+        {"moving day", fmt::format("the day goes from {:g} to {:g}", first, first + span),
+         [=, &stage](graph::Graph& graph, double position) {
+             declare(graph, first + span * position, stage.loaded().camera());
+         }},
+        // On the first day a wound still has the photograph's colours, whatever the tissue.
+        {"moving tissue",
+         fmt::format("the tissue's absorption grows by {:g} %, on day {:g}", 100 * tint, first + span / 3),
+         [=, &stage](graph::Graph& graph, double position) {
+             stage.set_tissue(tinted(tissue, 1 + tint * position));
+             declare(graph, first + span / 3, stage.loaded().camera());
+         },
+         [=, &stage] { stage.set_tissue(tissue); }}};
+}
+
+std::size_t triangles_drawn(const graph::Graph& graph)
+{
+    std::size_t indices = 0;
+    for (const graph::Pass& pass : graph.passes)
+        if (const auto* raster = std::get_if<graph::RasterPass>(&pass); raster && raster->name == "forward")
+            for (const graph::Draw& draw : raster->draws)
+                indices += draw.index_count;
+    return indices / 3;
+}
+
+} // namespace report_command

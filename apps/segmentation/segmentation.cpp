@@ -1,0 +1,53 @@
+#include "apps/segmentation/segmentation.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "base/image_io.hpp"
+#include "wound/photo/agreement.hpp"
+#include "wound/photo/segmentation.hpp"
+#include "wound/prepare.hpp"
+
+namespace segmentation_command {
+
+namespace {
+
+/// With a rectangle a tenth larger than the mask's, with a seed in its middle, and without a hint.
+void measure_segmentation(const std::string& photo, const std::string& mask)
+{
+    const cv::Mat3b srgb = base::read_rgb(photo);
+    const cv::Mat1b truth = wound::checked_mask(base::read_mask(mask), srgb.size(), mask);
+    const cv::Rect bounds = cv::boundingRect(truth);
+    const cv::Size margin(bounds.width / 10, bounds.height / 10);
+    wound::SegmentationHints rect, seed;
+    rect.rect = (bounds - cv::Point(margin) + margin + margin) & cv::Rect(cv::Point(), srgb.size());
+    seed.seed = (bounds.tl() + bounds.br()) / 2;
+    for (const auto& [name, hints] :
+         {std::pair("rectangle", rect), {"seed", seed}, {"no hint", wound::SegmentationHints{}}})
+    {
+        const cv::Mat1b found = wound::segment(srgb, hints, photo);
+        const wound::ContourAgreement fit = wound::agreement(found, truth);
+        fmt::print("{:<10} intersection over union {:.3f}; laid centroid on centroid {:.3f}, border {:.1f} "
+                   "px apart, area {:.3f} of the mask's\n",
+                   name, wound::intersection_over_union(found, truth), fit.intersection_over_union,
+                   fit.border_distance_px, fit.area_ratio);
+    }
+}
+
+} // namespace
+
+void add(CLI::App& program)
+{
+    auto files = std::make_shared<std::pair<std::string, std::string>>();
+    CLI::App* command = program.add_subcommand(
+        "segmentation", "Compare the wound found in a photograph with one drawn by hand");
+    command->add_option("photo", files->first, "Photograph of a wound, PNG or JPEG")
+        ->required()
+        ->type_name("PHOTO");
+    command->add_option("mask", files->second, "The wound white on black")->required()->type_name("MASK");
+    command->footer("Example: cicatrix segmentation photo.png mask.png");
+    command->callback([files] { measure_segmentation(files->first, files->second); });
+}
+
+} // namespace segmentation_command

@@ -1,0 +1,90 @@
+#include "apps/wound/wound.hpp"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+
+#include "apps/wound/wound_page.hpp"
+#include "base/file.hpp"
+#include "base/image_io.hpp"
+#include "base/number_option.hpp"
+#include "scene/command_line.hpp"
+#include "wound/prepare.hpp"
+
+namespace wound_command {
+namespace {
+
+struct WoundCommand
+{
+    std::string photo, mask;
+    std::filesystem::path out = "out/wound";
+    scene::HintOptions hints;
+    double width_mm = 30, spacing = 0;
+    std::string model = "face";
+};
+
+void show_wound(const WoundCommand& command)
+{
+    base::make_folder(command.out);
+    wound::Photograph photograph{base::read_rgb(command.photo), {}};
+    if (!command.mask.empty())
+        photograph.mask = base::read_mask(command.mask);
+    wound::Preparation preparation;
+    preparation.where = command.photo;
+    preparation.width_mm = command.width_mm;
+    preparation.hints = command.hints.hints(command.mask);
+    preparation.control_spacing = 2 * command.spacing; // a patch is 2 patch units wide
+    const std::vector<wound::PreparedWound> all = wound::prepare_all(photograph, preparation);
+    wound::Healing healing;
+    healing.model = command.model == "face" ? wound::HealingModel::face : wound::HealingModel::contraction;
+    for (std::size_t i = 0; i < all.size(); ++i) // the largest first; only the others carry a number
+    {
+        const std::string suffix = i == 0 ? "" : fmt::format("_{}", i + 1);
+        base::write_png(command.out / ("wound" + suffix + ".png"),
+                        draw_wound_page(photograph, all[i], healing));
+        base::write_png(command.out / ("mask" + suffix + ".png"), all[i].photo_mask);
+        base::write_json(command.out / ("wound" + suffix + ".json"), wound_to_json(all[i], healing));
+        if (!all[i].patch.shows_skin)
+            fmt::print(stderr,
+                       "note: {}: shows no healthy skin beside {}; an average one's colour is taken\n",
+                       command.photo, all.size() == 1 ? "the wound" : fmt::format("wound {}", i + 1));
+        fmt::print("wound{0}.png, mask{0}.png, wound{0}.json in {1}: {2} control points\n", suffix,
+                   command.out.string(), all[i].control_points.size());
+    }
+}
+
+} // namespace
+
+void add(CLI::App& program)
+{
+    auto options = std::make_shared<WoundCommand>();
+    CLI::App* command = program.add_subcommand(
+        "wound", "Show what is made of a photograph: mask, control points, warp, depth");
+    command->add_option("photo", options->photo, "Photograph of a wound, PNG or JPEG")
+        ->required()
+        ->type_name("PHOTO");
+    command->add_option("--mask", options->mask, "White where the wound is; without one it is segmented")
+        ->type_name("PICTURE");
+    scene::add_hint_options(*command, options->hints);
+    command->add_option("--width-mm", options->width_mm, "The wound's longer side on the skin, mm")
+        ->capture_default_str()
+        ->check(base::number_from(0.5, 200));
+    command
+        ->add_option(
+            "--spacing", options->spacing,
+            "Of the lines that give control points, as a share of the patch; 0: from the border's curvature")
+        ->capture_default_str()
+        ->check(base::number_from(0, 0.5));
+    command->add_option("--model", options->model, "How it closes")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"face", "contraction"}));
+    command->add_option("--out", options->out, "Folder for wound.png, mask.png and wound.json")
+        ->capture_default_str()
+        ->type_name("DIR");
+    command->footer("Example: cicatrix wound photo.jpg --rect 120,80,300,260 --out wound");
+    command->callback([options] { show_wound(*options); });
+}
+
+} // namespace wound_command

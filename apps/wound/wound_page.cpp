@@ -1,0 +1,271 @@
+#include "apps/wound/wound_page.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "base/color.hpp"
+#include "base/plot.hpp"
+#include "wound/contour.hpp"
+#include "wound/depth.hpp"
+#include "wound/warp/warp.hpp"
+
+namespace wound_command {
+
+namespace {
+
+constexpr int kTile = 264, kGap = 8, kColumns = 6, kTitle = 24; // pixels
+constexpr int kWidth = kColumns * (kTile + kGap) + kGap;
+constexpr int kChart = 330;
+constexpr std::array kRatios{1., .8, .6, .4, .2, .05};
+constexpr double kShownRatio = .4; // of the displacements and the grid: the paper's Figure 4
+const cv::Scalar kPaper(255, 255, 255), kBorder(0, 150, 70), kPoint(200, 30, 30), kArrow(20, 60, 200);
+
+/// Page position of a tile.
+cv::Rect tile(int row, int column)
+{
+    return {kGap + column * (kTile + kGap), kTitle + row * (kTile + kTitle + kGap), kTile, kTile};
+}
+
+void put(cv::Mat3b& page, const cv::Mat3b& picture, int row, int column, const std::string& title)
+{
+    const cv::Rect place = tile(row, column);
+    cv::Mat3b scaled;
+    cv::resize(picture, scaled, place.size(), 0, 0, picture.cols > kTile ? cv::INTER_AREA : cv::INTER_LINEAR);
+    scaled.copyTo(page(place));
+    base::draw_text(page, title, {place.x, place.y - 7});
+}
+
+/// A patch coordinate as a pixel of a size x size picture, in sixteenths.
+cv::Point sixteenths(cv::Point2d p, int size)
+{
+    return {cvRound(((p.x + 1) * size / 2 - .5) * 16), cvRound(((p.y + 1) * size / 2 - .5) * 16)};
+}
+
+void outline(cv::Mat3b& picture, const std::vector<cv::Point2d>& curve, const cv::Scalar& color)
+{
+    std::vector<cv::Point> points;
+    for (cv::Point2d p : curve)
+        points.push_back(sixteenths(p, picture.cols));
+    cv::polylines(picture, std::vector{points}, true, color, 2, cv::LINE_AA, 4);
+}
+
+/// The whole photograph in a square, with the mask's outline and the patch's frame.
+cv::Mat3b photograph_with_mask(const wound::Photograph& photograph, const wound::PreparedWound& wound)
+{
+    const int side = std::max(photograph.srgb.cols, photograph.srgb.rows);
+    cv::Mat3b square(side, side, cv::Vec3b(255, 255, 255));
+    photograph.srgb.copyTo(square(cv::Rect(cv::Point(), photograph.srgb.size())));
+    const int thickness = std::max(1, side / 200);
+    std::vector<std::vector<cv::Point>> curves;
+    cv::findContours(wound.photo_mask, curves, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+    cv::drawContours(square, curves, -1, kBorder, thickness);
+    const cv::Point2d half(wound.photo_side / 2, wound.photo_side / 2);
+    cv::rectangle(square, cv::Point(wound.photo_center - half), cv::Point(wound.photo_center + half), kArrow,
+                  thickness);
+    cv::drawMarker(square, wound.photo_center, kPoint, cv::MARKER_CROSS, side / 20, thickness);
+    return square;
+}
+
+/// Figure 1: border, the points D_n from the centroid, and where d_n = D_n (1 - sqrt r) takes them.
+cv::Mat3b displacements(const cv::Mat3b& color, const wound::PreparedWound& wound)
+{
+    cv::Mat3b picture = color.clone();
+    outline(picture, wound.border, kBorder);
+    for (cv::Point2d from : wound.control_points) {
+        const cv::Point2d to = from - (from - wound.centroid) * (1 - std::sqrt(kShownRatio));
+        cv::line(picture, sixteenths(from, picture.cols), sixteenths(to, picture.cols), kArrow, 1,
+                 cv::LINE_AA, 4);
+        cv::circle(picture, sixteenths(from, picture.cols), 4 * 16, kPoint, cv::FILLED, cv::LINE_AA, 4);
+    }
+    cv::circle(picture, sixteenths(wound.centroid, picture.cols), 6 * 16, kPoint, 2, cv::LINE_AA, 4);
+    return picture;
+}
+
+/// Today's image of a square grid drawn on the skin on day 0, and the border's.
+cv::Mat3b warped_grid(const wound::Warp& warp, const wound::PreparedWound& wound)
+{
+    constexpr int kSize = 528;
+    constexpr double kLines = 12; // per patch unit
+    const cv::Mat2d back = wound::backward_map(warp, kSize);
+    cv::Mat3b picture(kSize, kSize, cv::Vec3b(255, 255, 255));
+    const auto cell = [&](int j, int i, int axis) { return std::floor(back(j, i)[axis] * kLines); };
+    for (int j = 0; j + 1 < kSize; ++j)
+        for (int i = 0; i + 1 < kSize; ++i)
+            for (int axis : {0, 1})
+                if (cell(j, i, axis) != cell(j, i + 1, axis) || cell(j, i, axis) != cell(j + 1, i, axis))
+                    picture(j, i) = cv::Vec3b(70, 70, 70);
+    std::vector<cv::Point2d> today;
+    for (cv::Point2d p : wound.border)
+        today.push_back(wound.centroid + (p - wound.centroid) * warp.scale);
+    outline(picture, today, kBorder);
+    return picture;
+}
+
+/// The rival of Figure 4 (a): the picture itself made smaller.
+cv::Mat3b plainly_scaled(const cv::Mat3b& color, double ratio)
+{
+    const double scale = std::sqrt(ratio), middle = (color.cols - 1) / 2.;
+    cv::Mat3b scaled;
+    cv::warpAffine(color, scaled, cv::Matx23d(scale, 0, middle * (1 - scale), 0, scale, middle * (1 - scale)),
+                   color.size(), cv::INTER_AREA, cv::BORDER_CONSTANT, kPaper);
+    return scaled;
+}
+
+cv::Mat3b depth_picture(const cv::Mat1f& depth_mm)
+{
+    double lowest = 0, highest = 0;
+    cv::minMaxLoc(depth_mm, &lowest, &highest);
+    cv::Mat1b gray;
+    depth_mm.convertTo(gray, CV_8U, -215 / std::max(highest - lowest, 1e-6),
+                       20 + 215 * highest / std::max(highest - lowest, 1e-6));
+    cv::Mat3b picture;
+    cv::cvtColor(gray, picture, cv::COLOR_GRAY2RGB);
+    return picture;
+}
+
+/// Figure 5: depth along the line through the centroid, on several days.
+void draw_profiles(cv::Mat3b& page, cv::Rect area, const wound::PreparedWound& wound,
+                   const wound::Healing& healing)
+{
+    double lowest = 0, deepest = 0;
+    cv::minMaxLoc(wound.patch.depth_mm, &lowest, &deepest);
+    const double half = wound.patch.width_mm / 2;
+    base::Plot plot(page, area, {-half, half}, {-1.1 * deepest - .1, -lowest + .3},
+                    "height over the skin through the centroid, mm", "mm");
+    const double closed = std::min(wound::closure_day(healing.curve), 365.);
+    for (int k = 0; k < 5; ++k) {
+        const double day = closed * k / 4;
+        const wound::HealingState state = wound::healing_at(healing, day);
+        const cv::Mat1f today =
+            wound::warp_image(wound.patch.depth_mm, wound::make_warp(wound.flow, state.unhealed_ratio));
+        const std::vector<double> profile = wound::depth_profile(today, wound.centroid);
+        std::vector<cv::Point2d> line;
+        for (std::size_t i = 0; i < profile.size(); ++i)
+            line.emplace_back(((static_cast<double>(i) + .5) / static_cast<double>(profile.size()) * 2 - 1) *
+                                  half,
+                              -profile[i] * state.depth_scale);
+        const cv::Scalar color(200 - 40 * k, 40 + 30 * k, 40 + 45 * k);
+        plot.line(line, color);
+        plot.legend(fmt::format("day {:.0f}", day), color);
+    }
+}
+
+void draw_ratios(cv::Mat3b& page, cv::Rect area, const wound::Healing& healing)
+{
+    const double last = std::min(1.3 * wound::closure_day(healing.curve), 365.);
+    std::vector<cv::Point2d> bed, border, depth;
+    double highest = 1;
+    for (int i = 0; i <= 300; ++i) {
+        const wound::HealingState state = wound::healing_at(healing, last * i / 300);
+        bed.emplace_back(state.day, state.unhealed_ratio);
+        border.emplace_back(state.day, state.border_ratio);
+        depth.emplace_back(state.day, state.depth_scale);
+        highest = std::max(highest, state.border_ratio);
+    }
+    base::Plot plot(page, area, {0, last}, {0, 1.08 * highest}, "share of day 0", "days");
+    plot.line(depth, {150, 150, 150}, 1);
+    plot.line(border, kBorder);
+    plot.line(bed, kPoint);
+    plot.legend("area inside the border", kBorder);
+    plot.legend("open bed, r", kPoint);
+    plot.legend("depth, sqrt r", {150, 150, 150});
+}
+
+} // namespace
+
+cv::Mat3b draw_wound_page(const wound::Photograph& photograph, const wound::PreparedWound& wound,
+                          const wound::Healing& healing)
+{
+    cv::Mat3b page(kTitle + 3 * (kTile + kTitle + kGap) + kChart, kWidth, cv::Vec3b(255, 255, 255));
+    const cv::Mat3b color = base::srgb_from_linear(wound.patch.color);
+    const wound::Warp shown = wound::make_warp(wound.flow, kShownRatio);
+    int column = 0;
+    if (!wound.photo_mask.empty())
+        put(page, photograph_with_mask(photograph, wound), 0, column++, "photograph, mask, patch");
+    put(page, displacements(color, wound), 0, column++,
+        fmt::format("{} control points, r = {}", wound.control_points.size(), kShownRatio));
+    put(page, warped_grid(shown, wound), 0, column++, fmt::format("skin's grid at r = {}", kShownRatio));
+    double deepest = 0;
+    cv::minMaxLoc(wound.patch.depth_mm, nullptr, &deepest);
+    put(page, depth_picture(wound.patch.depth_mm), 0, column++,
+        fmt::format("depth, at most {:.2f} mm", deepest));
+    cv::Mat1b opacity;
+    wound.patch.opacity.convertTo(opacity, CV_8U, 255);
+    cv::Mat3b opacity_picture;
+    cv::cvtColor(opacity, opacity_picture, cv::COLOR_GRAY2RGB);
+    put(page, opacity_picture, 0, column, "opacity over the face");
+    for (std::size_t i = 0; i < kRatios.size(); ++i) {
+        const cv::Mat3b warped = wound::warp_image(color, wound::make_warp(wound.flow, kRatios[i]));
+        put(page, warped, 1, static_cast<int>(i), fmt::format("warped, r = {}", kRatios[i]));
+        put(page, plainly_scaled(color, kRatios[i]), 2, static_cast<int>(i),
+            fmt::format("plainly scaled, r = {}", kRatios[i]));
+    }
+    const int top = page.rows - kChart;
+    draw_profiles(page, {0, top, kWidth / 2, kChart}, wound, healing);
+    draw_ratios(page, {kWidth / 2, top, kWidth / 2, kChart}, healing);
+    return page;
+}
+
+nlohmann::json wound_to_json(const wound::PreparedWound& wound, const wound::Healing& healing)
+{
+    const double pixels = wound.photo_side / 2; // per patch unit
+    const auto in_photo = [&](cv::Point2d p) {
+        const cv::Point2d q = wound.photo_center + p * pixels;
+        return nlohmann::json{q.x, q.y};
+    };
+    nlohmann::json points = nlohmann::json::array(), border = nlohmann::json::array(),
+                   warps = nlohmann::json::array(), days = nlohmann::json::array();
+    for (cv::Point2d p : wound.control_points)
+        points.push_back(in_photo(p));
+    for (cv::Point2d p : wound.border)
+        border.push_back(in_photo(p));
+    int folds = 0;
+    for (double r : {1., .9, .8, .6, .4, .2, .1, .05, .01}) {
+        const wound::Warp warp = wound::make_warp(wound.flow, r);
+        const wound::FoldCheck check = wound::check_folds(warp, wound.patch.mask.cols);
+        const double area =
+            wound::signed_area(wound::outline_today(warp, wound.border)); // a mask may miss it
+        folds += check.folded_texels;
+        warps.push_back({{"ratio", r},
+                         {"area_ratio", area / wound::signed_area(wound.border)},
+                         {"folds", check.folded_texels},
+                         {"least_jacobian", check.least_jacobian}});
+    }
+    const double closed = wound::closure_day(healing.curve);
+    const int last = static_cast<int>(std::ceil(std::min(1.3 * closed, 365.)));
+    for (int day = 0; day <= last; ++day) {
+        const wound::HealingState state = wound::healing_at(healing, day);
+        days.push_back({{"day", day},
+                        {"unhealed_ratio", state.unhealed_ratio},
+                        {"border_ratio", state.border_ratio},
+                        {"depth_scale", state.depth_scale}});
+    }
+    double lowest = 0, deepest = 0;
+    cv::minMaxLoc(wound.patch.depth_mm, &lowest, &deepest);
+    nlohmann::json json{{"area_px", wound.area * pixels * pixels},
+                        {"centroid_px", in_photo(wound.centroid)},
+                        {"control_points", points},
+                        {"border_px", border},
+                        {"patch_side_px", wound.photo_side},
+                        {"patch_width_mm", wound.patch.width_mm},
+                        {"area_mm2", wound.area * std::pow(wound.patch.width_mm / 2, 2)},
+                        {"shows_skin", wound.patch.shows_skin},
+                        {"depth_mm_max", deepest},
+                        {"rim_mm_max", -lowest},
+                        {"folds", folds},
+                        {"warps", warps},
+                        {"half_time_days", nullptr},
+                        {"closure_day", nullptr},
+                        {"days", days}};
+    if (std::isfinite(closed))
+        json["closure_day"] = closed;
+    if (const double half = wound::half_time(healing.curve); std::isfinite(half))
+        json["half_time_days"] = half;
+    return json;
+}
+
+} // namespace wound_command

@@ -1,0 +1,69 @@
+#include "base/contact_sheet.hpp"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+namespace base {
+namespace {
+
+const cv::Scalar ink(40, 40, 44);
+const cv::Vec3b page_color(250, 249, 247);
+constexpr int cell_width = 300;
+constexpr int gap = 12, label_height = 30, title_height = 44;
+
+void paste(cv::Mat3b& page, const cv::Mat3b& picture, cv::Point at)
+{
+    picture.copyTo(page(cv::Rect(at, picture.size())));
+}
+
+/// Straight alpha over the page's colour.
+cv::Mat3b on_page(const cv::Mat4b& rgba)
+{
+    cv::Mat3b result(rgba.size());
+    for (int y = 0; y < rgba.rows; ++y)
+        for (int x = 0; x < rgba.cols; ++x) {
+            const cv::Vec4b& pixel = rgba(y, x);
+            for (int c = 0; c < 3; ++c)
+                result(y, x)[c] = uchar((pixel[c] * pixel[3] + page_color[c] * (255 - pixel[3]) + 127) / 255);
+        }
+    return result;
+}
+
+} // namespace
+
+void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point origin, double height_px,
+                cv::Scalar color)
+{
+    cv::putText(picture, text, origin, cv::FONT_HERSHEY_SIMPLEX, height_px / 22.0, color, 1, cv::LINE_AA);
+}
+
+cv::Mat3b sheet_picture(const cv::Mat& picture)
+{
+    const cv::Mat3b opaque = picture.channels() == 4 ? on_page(picture) : cv::Mat3b(picture);
+    cv::Mat3b small;
+    cv::resize(opaque, small, {cell_width, std::max(1, picture.rows * cell_width / picture.cols)}, 0, 0,
+               cv::INTER_AREA);
+    return small;
+}
+
+cv::Mat3b contact_sheet(const std::string& title, const std::vector<SheetCell>& cells, int columns)
+{
+    columns = std::max(1, std::min(columns, int(cells.size())));
+    const int face_height = cells.front().face.rows;
+    const int close_height = cells.front().close_up.rows;
+    const int row_height = face_height + close_height + label_height + gap + 4;
+    const int rows = (int(cells.size()) + columns - 1) / columns;
+    cv::Mat3b page(title_height + rows * row_height + gap, gap + columns * (cell_width + gap), page_color);
+    draw_label(page, title, {gap, title_height - 16}, 14, ink);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const int x = gap + int(i) % columns * (cell_width + gap);
+        const int y = title_height + int(i) / columns * row_height;
+        paste(page, cells[i].face, {x, y});
+        if (close_height > 0)
+            paste(page, cells[i].close_up, {x, y + face_height + 4});
+        draw_label(page, cells[i].label, {x, y + face_height + close_height + 24}, 11, ink);
+    }
+    return page;
+}
+
+} // namespace base

@@ -1,0 +1,100 @@
+#include "base/image_io.hpp"
+
+#include <atomic>
+#include <cstdlib>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <unistd.h>
+
+#include "base/file.hpp"
+#include "base/image_codec.hpp"
+#include "base/input_error.hpp"
+
+namespace base {
+namespace {
+
+constexpr std::size_t max_file = std::size_t{1} << 30; // bytes
+
+void write_converted(const std::filesystem::path& path, const cv::Mat& picture,
+                     cv::ColorConversionCodes to_opencv)
+{
+    cv::Mat converted;
+    cv::cvtColor(picture, converted, to_opencv);
+    write_bytes(path, encode_png(converted));
+}
+
+// OpenCV keeps its OpenEXR codec locked (for fear of hostile files, which we do not read) until this is set.
+// Before main, for files are written by threads, and the environment is no thread's own.
+[[maybe_unused]] const int exr_unlocked = setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
+
+void write_exr_converted(const std::filesystem::path& path, const cv::Mat& picture,
+                         cv::ColorConversionCodes to_opencv, ExrDepth depth)
+{
+    cv::Mat converted;
+    cv::cvtColor(picture, converted, to_opencv);
+    const int type = depth == ExrDepth::Half ? cv::IMWRITE_EXR_TYPE_HALF : cv::IMWRITE_EXR_TYPE_FLOAT;
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(".exr", converted, bytes, {cv::IMWRITE_EXR_TYPE, type});
+    write_bytes(path, bytes);
+}
+
+} // namespace
+
+cv::Mat3b read_rgb(const std::filesystem::path& path)
+{
+    const cv::Mat bgr = decode_picture(read_file(path, max_file), Channels::Color, path.string());
+    cv::Mat3b rgb;
+    cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+    return rgb;
+}
+
+cv::Mat1b read_mask(const std::filesystem::path& path)
+{
+    const auto bytes = read_file(path, max_file);
+    const cv::Mat stored = decode_picture(bytes, Channels::AsStored, path.string());
+    if (stored.channels() != 4) {
+        cv::Mat gray;
+        cv::cvtColor(decode_picture(bytes, Channels::Color, path.string()), gray, cv::COLOR_BGR2GRAY);
+        return gray > 127;
+    }
+    cv::Mat gray, alpha;
+    cv::cvtColor(stored, gray, cv::COLOR_BGRA2GRAY);
+    cv::extractChannel(stored, alpha, 3);
+    cv::Mat product;
+    cv::multiply(gray, alpha, product, 1.0, CV_32S);
+    return product > 255 * 255 / 2;
+}
+
+void write_png(const std::filesystem::path& path, const cv::Mat3b& rgb)
+{
+    write_converted(path, rgb, cv::COLOR_RGB2BGR);
+}
+
+void write_png(const std::filesystem::path& path, const cv::Mat4b& rgba)
+{
+    write_converted(path, rgba, cv::COLOR_RGBA2BGRA);
+}
+
+void write_png(const std::filesystem::path& path, const cv::Mat1b& gray)
+{
+    write_bytes(path, encode_png(gray));
+}
+
+void write_exr(const std::filesystem::path& path, const cv::Mat1f& values)
+{
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(".exr", values, bytes, {cv::IMWRITE_EXR_TYPE, cv::IMWRITE_EXR_TYPE_FLOAT});
+    write_bytes(path, bytes);
+}
+
+void write_exr(const std::filesystem::path& path, const cv::Mat3f& rgb, ExrDepth depth)
+{
+    write_exr_converted(path, rgb, cv::COLOR_RGB2BGR, depth);
+}
+
+void write_exr(const std::filesystem::path& path, const cv::Mat4f& rgba, ExrDepth depth)
+{
+    write_exr_converted(path, rgba, cv::COLOR_RGBA2BGRA, depth);
+}
+
+} // namespace base

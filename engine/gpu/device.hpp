@@ -1,0 +1,93 @@
+// The Vulkan instance, the device and its queue. Headless; a window adds the extensions it needs through
+// DeviceOptions. The Vulkan library is loaded at run time, so a machine without it gets one clear line.
+#pragma once
+#include "engine/gpu/device_choice.hpp"
+
+#include <chrono>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+#include <volk.h>
+
+namespace gpu {
+
+struct DeviceOptions
+{
+    std::string device;      // part of a name or an index; empty: environment CICATRIX_DEVICE, else the best
+    bool validation = false; // with synchronisation validation; CICATRIX_VALIDATION=1 does the same
+    std::vector<const char*> instance_extensions; // beyond what headless work needs
+    DeviceWishes wishes;                          // the same of the device
+};
+
+/// Neither copied nor moved; everything made from it must be gone before it.
+class Device
+{
+  public:
+    /// Throws base::InputError: no Vulkan library, no fit
+    /// device (and why each was refused), no validation layer.
+    explicit Device(const DeviceOptions& options = {});
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    const DeviceInfo& info() const { return physical.info; }
+    const VkPhysicalDeviceLimits& limits() const { return physical.properties.limits; }
+    VkInstance instance() const { return vk_instance; }
+    VkPhysicalDevice physical_device() const { return physical.handle; }
+    VkDevice handle() const { return vk_device; }
+    VkQueue queue() const { return vk_queue; }
+    std::uint32_t queue_family() const { return physical.queue_family; }
+    std::uint32_t timestamp_bits() const { return info().timestamps ? physical.timestamp_bits : 0; }
+
+    /// From one of the device's ticks to a later one, right across a wrap, too.
+    double milliseconds(std::uint64_t from_tick, std::uint64_t to_tick) const;
+    /// One moment as the device and as the host see it. None on a device that cannot tell.
+    struct Calibration
+    {
+        std::uint64_t ticks = 0;
+        std::chrono::steady_clock::time_point host;
+        double deviation_ms = 0; // at most so far apart
+    };
+    std::optional<Calibration> calibrate() const;
+
+    /// The first memory type among `allowed_types` with all properties of the first wish that can be granted.
+    std::uint32_t memory_type(std::uint32_t allowed_types,
+                              std::initializer_list<VkMemoryPropertyFlags> wishes) const;
+    VkMemoryPropertyFlags memory_flags(std::uint32_t type) const
+    {
+        return memory.memoryTypes[type].propertyFlags;
+    }
+
+    /// Records commands, submits them and waits. For uploads.
+    void run_once(const std::function<void(VkCommandBuffer)>& record) const;
+
+    /// Shown by validation messages and debuggers; does nothing without VK_EXT_debug_utils.
+    void name(VkObjectType type, std::uint64_t object, const std::string& name) const;
+
+    /// Every warning and error of the validation layers since
+    /// clear_validation_messages(). Empty without validation.
+    std::vector<std::string> validation_messages() const;
+    void clear_validation_messages();
+
+  private:
+    struct Messages;
+    void create_instance(const DeviceOptions& options);
+    void create_device(const DeviceOptions& options);
+    void destroy();
+
+    std::unique_ptr<Messages> messages; // its address is known to the layers
+    VkInstance vk_instance = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+    PhysicalDevice physical;
+    VkPhysicalDeviceMemoryProperties memory{};
+    VkDevice vk_device = VK_NULL_HANDLE;
+    VkQueue vk_queue = VK_NULL_HANDLE;
+};
+
+/// What `cicatrix info` prints: every device, what it offers and what it lacks.
+std::string describe_devices();
+
+} // namespace gpu

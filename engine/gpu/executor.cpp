@@ -1,0 +1,343 @@
+#include "engine/gpu/executor.hpp"
+
+#include "engine/gpu/recorder.hpp"
+#include "engine/gpu/vulkan_check.hpp"
+#include "engine/graph/binding_check.hpp"
+#include "engine/graph/formats.hpp"
+#include "engine/graph/graph_check.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cstring>
+#include <stdexcept>
+
+namespace gpu {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds(Clock::duration time)
+{
+    return std::chrono::duration<double, std::milli>(time).count();
+}
+
+/// Of what the pass declares to write, the part that is kept.
+std::uint64_t bytes_written(const graph::Graph& graph, const graph::PassPlan& planned)
+{
+    const auto size = [&](graph::ImageId id) {
+        const graph::ImageDesc& desc = graph.images[id.index].desc;
+        return std::uint64_t{desc.width} * desc.height * desc.samples *
+               graph::find_format(desc.format)->bytes;
+    };
+    const graph::Pass& pass = graph.passes[planned.pass];
+    std::uint64_t bytes = 0;
+    if (const auto* compute = std::get_if<graph::ComputePass>(&pass)) {
+        for (const graph::Bindings::Stored& stored : compute->stored)
+            bytes += size(stored.image);
+        return bytes;
+    }
+    const graph::RasterPass& raster = std::get<graph::RasterPass>(pass);
+    for (std::size_t i = 0; i < raster.colors.size(); ++i) {
+        if (planned.color_stores[i] == VK_ATTACHMENT_STORE_OP_STORE)
+            bytes += size(raster.colors[i].image);
+        if (raster.colors[i].resolve.valid())
+            bytes += size(raster.colors[i].resolve);
+    }
+    if (raster.depth_image.valid() && planned.depth_store == VK_ATTACHMENT_STORE_OP_STORE)
+        bytes += size(raster.depth_image);
+    return bytes;
+}
+
+/// A labelled stretch of commands, for debuggers.
+class Label
+{
+  public:
+    Label(VkCommandBuffer to, const std::string& name) : commands(to)
+    {
+        const VkDebugUtilsLabelEXT info{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
+                                        .pLabelName = name.c_str()};
+        if (vkCmdBeginDebugUtilsLabelEXT)
+            vkCmdBeginDebugUtilsLabelEXT(commands, &info);
+    }
+    ~Label()
+    {
+        if (vkCmdEndDebugUtilsLabelEXT)
+            vkCmdEndDebugUtilsLabelEXT(commands);
+    }
+    Label(const Label&) = delete;
+    Label& operator=(const Label&) = delete;
+
+  private:
+    VkCommandBuffer commands;
+};
+
+} // namespace
+
+const char* name_of(Alignment alignment)
+{
+    switch (alignment) {
+    case Alignment::Calibrated:
+        return "calibrated";
+    case Alignment::Bounds:
+        return "bounds";
+    default:
+        return "none";
+    }
+}
+
+cv::Mat FrameResult::mat(graph::ReadbackId id) const
+{
+    const Readback& readback = readbacks.at(id.index);
+    // cv::Mat has no constant form; callers get the picture to read.
+    void* data = const_cast<std::byte*>(readback.bytes.data());
+    return {static_cast<int>(readback.desc.height), static_cast<int>(readback.desc.width),
+            graph::find_format(readback.desc.format)->cv_type, data};
+}
+
+const PassResult& FrameResult::pass(std::string_view name) const
+{
+    for (const PassResult& result : passes)
+        if (result.name == name)
+            return result;
+    throw std::out_of_range("no pass " + std::string(name));
+}
+
+/// One of the frames in flight.
+struct Executor::Frame
+{
+    explicit Frame(const Device& device) : slot(device) {}
+
+    std::vector<std::shared_ptr<const void>> kept; // Graph::keep; the slot, destroyed first, waits
+    FrameSlot slot;
+    std::uint64_t number = 0;
+    Clock::time_point start, recorded, submitted;
+    FrameResult result;                // without what only the finished frame knows
+    std::vector<VkDeviceSize> offsets; // of the read-backs
+    const Buffer* readback = nullptr;  // null when there are none
+};
+
+Executor::Executor(const Device& used, const graph::ShaderLibrary& shaders)
+    : device(used), library(shaders), pipelines(used, shaders)
+{
+    for (auto& frame : frames)
+        frame = std::make_unique<Frame>(device);
+}
+
+Executor::~Executor() = default; // the frames, destroyed first, wait for what is in flight
+
+FrameResult Executor::run(const graph::Graph& graph)
+{
+    return finish(submit(graph));
+}
+
+FrameToken Executor::submit(const graph::Graph& graph)
+{
+    const Clock::time_point start = Clock::now();
+    std::vector<std::string> problems = graph::check_graph(graph);
+    const std::vector<std::string> unfit = graph::check_bindings(graph, library);
+    problems.insert(problems.end(), unfit.begin(), unfit.end());
+    graph::throw_if_any(problems);
+
+    Frame& frame = *frames[submitted % frames.size()];
+    frame.slot.wait();
+    frame.kept = graph.kept; // those of the frame that used the slot last can go
+    frame.result = {};
+    frame.result.plan = graph::schedule(graph, memory);
+    frame.start = start;
+    match_images(graph, frame.result.plan);
+    const std::vector<BoundImage> bound = bind_images(graph);
+    const auto passes = static_cast<std::uint32_t>(graph.passes.size());
+    const Clock::time_point scheduled = Clock::now();
+    const VkCommandBuffer commands = frame.slot.begin(2 * passes + 2, measuring.count ? passes : 0);
+    record_passes(graph, frame, commands, bound);
+    frame.recorded = Clock::now();
+    frame.slot.submit(measuring.align);
+    frame.submitted = Clock::now();
+    frame.result.host.schedule_ms = milliseconds(scheduled - start);
+    frame.result.host.record_ms = milliseconds(frame.recorded - scheduled);
+    frame.result.host.submit_ms = milliseconds(frame.submitted - frame.recorded);
+    memory = frame.result.plan.memory; // only now: whatever threw before has changed no image
+    frame.number = ++submitted;
+    return {frame.number};
+}
+
+FrameResult Executor::finish(FrameToken token)
+{
+    Frame& frame = *frames[(token.number - 1) % frames.size()];
+    if (token.number == 0 || frame.number != token.number)
+        throw std::logic_error("Executor::finish: this frame's results are gone");
+    frame.slot.wait();
+    const Clock::time_point done = Clock::now();
+    FrameResult result = std::move(frame.result);
+    frame.kept.clear();
+    frame.number = 0;
+    if (frame.slot.has_timestamps())
+        read_times(frame, done, result);
+    if (frame.readback) {
+        frame.readback->invalidate();
+        for (std::size_t i = 0; i < result.readbacks.size(); ++i) {
+            std::vector<std::byte>& bytes = result.readbacks[i].bytes;
+            std::memcpy(bytes.data(), frame.readback->mapped().data() + frame.offsets[i], bytes.size());
+        }
+    }
+    const Clock::time_point end = Clock::now();
+    result.host.wait_ms = milliseconds(done - frame.submitted);
+    result.host.readback_ms = milliseconds(end - done);
+    result.frame_ms = milliseconds(end - frame.start);
+    return result;
+}
+
+bool Executor::up_to_date(const graph::Graph& graph) const
+{
+    const graph::Plan plan = graph::schedule(graph, memory);
+    return std::ranges::none_of(
+        plan.passes, [](const graph::PassPlan& pass) { return pass.state == graph::PassState::Run; });
+}
+
+/// The timestamps of a frame that was done at `done`: two of each pass that ran, two of the copies.
+void Executor::read_times(const Frame& frame, Clock::time_point done, FrameResult& result)
+{
+    const FrameSlot& slot = frame.slot;
+    const auto since_start = [&](Clock::time_point time) { return milliseconds(time - frame.start); };
+    const std::size_t passes = static_cast<std::size_t>(
+        std::ranges::count(result.passes, graph::PassState::Run, &PassResult::state));
+    const std::size_t last =
+        2 * (passes + (frame.readback ? 1 : 0)) - 1; // there are timestamps, so one of both
+    const double all_ms = slot.milliseconds(0, last);
+    double origin = 0;
+    if (const auto first = slot.first_timestamp()) {
+        result.alignment = Alignment::Calibrated;
+        result.alignment_error_ms = first->error_ms;
+        origin = since_start(first->time);
+    } else {
+        result.alignment = Alignment::Bounds;
+        result.alignment_error_ms =
+            std::max(0.0, (since_start(done) - since_start(frame.recorded) - all_ms) / 2);
+        origin = since_start(frame.recorded) + result.alignment_error_ms;
+    }
+    std::size_t ran = 0;
+    for (PassResult& pass : result.passes)
+        if (pass.state == graph::PassState::Run) {
+            pass.gpu_begin_ms = origin + slot.milliseconds(0, 2 * ran);
+            pass.gpu_ms = slot.milliseconds(2 * ran, 2 * ran + 1);
+            pass.invocations = slot.invocations(ran);
+            ++ran;
+        }
+    result.gpu_ms = ran > 0 ? slot.milliseconds(0, 2 * ran - 1) : 0.0;
+    if (frame.readback)
+        result.copy = GpuSpan{origin + slot.milliseconds(0, 2 * ran), slot.milliseconds(2 * ran, last)};
+}
+
+VkImage Executor::presented(std::string_view image_name) const
+{
+    const auto image = images.find(image_name);
+    return image == images.end() ? VK_NULL_HANDLE : image->second.handle();
+}
+
+void Executor::forget()
+{
+    for (auto& [name, state] : memory.images)
+        state.content_version = 0; // what the GPU may still be doing to it stays known
+    memory.passes.clear();
+}
+
+/// Makes the images this frame touches, and lets go of those that are declared differently or no longer.
+void Executor::match_images(const graph::Graph& graph, const graph::Plan& plan)
+{
+    const auto fits = [&](const std::string& name, const Image& image) {
+        const auto state = plan.memory.images.find(name);
+        return state != plan.memory.images.end() && state->second.desc == image.desc() &&
+               state->second.usage == image.usage();
+    };
+    for (auto image = images.begin(); image != images.end();) {
+        if (fits(image->first, image->second)) {
+            ++image;
+            continue;
+        }
+        check(vkQueueWaitIdle(device.queue()),
+              "finish the frames that use an image"); // rare: a change of size
+        memory.images.erase(image->first);
+        image = images.erase(image);
+    }
+    for (std::size_t i = 0; i < graph.images.size(); ++i) {
+        const std::string& name = graph.images[i].name;
+        if (graph.images[i].external || plan.images[i].first == ~0u || images.contains(name))
+            continue;
+        const graph::ImageState& state = plan.memory.images.at(name);
+        images.emplace(name, Image(device, state.desc, 1, state.usage, name));
+    }
+}
+
+std::vector<BoundImage> Executor::bind_images(const graph::Graph& graph) const
+{
+    std::vector<BoundImage> bound;
+    for (const graph::Graph::Image& image : graph.images) {
+        if (image.external)
+            bound.push_back({VK_NULL_HANDLE, image.external->view});
+        else if (const auto own = images.find(image.name); own != images.end())
+            bound.push_back({own->second.handle(), own->second.view()});
+        else
+            bound.push_back({});
+    }
+    return bound;
+}
+
+void Executor::record_passes(const graph::Graph& graph, Frame& frame, VkCommandBuffer commands,
+                             std::span<const BoundImage> bound)
+{
+    Recorder recorder(device, graph, pipelines, frame.slot, commands, bound);
+    for (const graph::PassPlan& planned : frame.result.plan.passes) {
+        PassResult& result = frame.result.passes.emplace_back();
+        result.name = planned.name;
+        result.state = planned.state;
+        result.reason = planned.reason;
+        if (planned.state != graph::PassState::Run)
+            continue;
+        const Clock::time_point start = Clock::now();
+        const Label label(commands, planned.name);
+        frame.slot.timestamp();
+        // Every pass writes an image, so there always is a barrier between this timestamp and a dispatch.
+        // llvmpipe needs it: without one it reports next to no time for the dispatch.
+        assert(!planned.barriers.empty());
+        recorder.barriers(planned.barriers);
+        frame.slot.begin_count();
+        const graph::Pass& pass = graph.passes[planned.pass];
+        if (const auto* compute = std::get_if<graph::ComputePass>(&pass))
+            recorder.record(*compute);
+        else
+            recorder.record(std::get<graph::RasterPass>(pass), planned);
+        frame.slot.end_count();
+        frame.slot.timestamp();
+        result.bytes_written = bytes_written(graph, planned);
+        result.cpu_begin_ms = milliseconds(start - frame.start);
+        result.cpu_ms = milliseconds(Clock::now() - start);
+    }
+    record_readbacks(graph, frame, recorder);
+}
+
+void Executor::record_readbacks(const graph::Graph& graph, Frame& frame, Recorder& recorder)
+{
+    if (!graph.readbacks.empty())
+        frame.slot.timestamp();
+    recorder.barriers(frame.result.plan.final_barriers);
+    frame.offsets.clear();
+    frame.readback = nullptr;
+    VkDeviceSize size = 0;
+    for (const graph::Graph::Readback& readback : graph.readbacks) {
+        const graph::ImageDesc& desc = graph.images[readback.image.index].desc;
+        const std::size_t bytes =
+            std::size_t{desc.width} * desc.height * graph::find_format(desc.format)->bytes;
+        frame.offsets.push_back(size);
+        frame.result.readbacks.push_back({readback.name, desc, std::vector<std::byte>(bytes)});
+        size += (bytes + 15) / 16 * 16; // copies start on a multiple of the texel size
+    }
+    if (graph.readbacks.empty())
+        return;
+    frame.readback = &frame.slot.readback(size);
+    recorder.copy_out(graph.readbacks, *frame.readback, frame.offsets);
+    frame.slot.timestamp();
+}
+
+} // namespace gpu

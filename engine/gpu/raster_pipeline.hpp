@@ -1,0 +1,45 @@
+// Shader modules and graphics pipelines, with what all of ours have in common filled in: triangle lists, one
+// vertex buffer, dynamic viewport and scissor, dynamic rendering.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <volk.h>
+
+namespace gpu {
+
+/// Lives until the pipeline is made.
+class ShaderModule
+{
+  public:
+    ShaderModule(VkDevice device, std::span<const std::uint32_t> words, const std::string& name);
+    ~ShaderModule() { vkDestroyShaderModule(device, module, nullptr); }
+    ShaderModule(const ShaderModule&) = delete;
+    ShaderModule& operator=(const ShaderModule&) = delete;
+
+    /// `specialisation` must outlive what is made of it.
+    VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits which,
+                                          const VkSpecializationInfo* specialisation = nullptr) const;
+
+  private:
+    VkDevice device;
+    VkShaderModule module = VK_NULL_HANDLE;
+};
+
+struct RasterPipelineInfo
+{
+    std::span<const VkPipelineShaderStageCreateInfo> stages;
+    std::uint32_t vertex_stride = 0;                                    // bytes
+    std::span<const VkVertexInputAttributeDescription> attributes = {}; // empty: no vertex buffer
+    std::span<const VkFormat> colors;
+    VkFormat depth = VK_FORMAT_UNDEFINED;
+    std::uint32_t samples = 1;
+    bool cull_back_faces = false, blend = false; // source alpha over, in every colour
+    bool depth_test = false, depth_write = false;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+};
+
+/// `name` is for the error.
+VkPipeline make_raster_pipeline(VkDevice device, const RasterPipelineInfo& info, const std::string& name);
+
+} // namespace gpu

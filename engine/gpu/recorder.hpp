@@ -1,0 +1,49 @@
+// Turns one planned pass into commands: barriers, descriptor sets, attachments, draws.
+#pragma once
+#include "engine/gpu/frame_slot.hpp"
+#include "engine/gpu/pipelines.hpp"
+#include "engine/graph/binding_check.hpp"
+#include "engine/graph/schedule.hpp"
+
+#include <span>
+#include <vector>
+
+namespace gpu {
+
+/// What stands behind an ImageId in this frame. Null for images that no pass of this frame touches.
+struct BoundImage
+{
+    VkImage image = VK_NULL_HANDLE; // null for external images: they are only ever sampled
+    VkImageView view = VK_NULL_HANDLE;
+};
+
+class Recorder
+{
+  public:
+    Recorder(const Device& device, const graph::Graph& graph, Pipelines& pipelines, FrameSlot& slot,
+             VkCommandBuffer commands, std::span<const BoundImage> images);
+
+    void barriers(std::span<const graph::ImageBarrier> barriers) const;
+    void record(const graph::ComputePass& pass);
+    void record(const graph::RasterPass& pass, const graph::PassPlan& planned);
+    /// Copies images into `to`, one behind the other from `offsets` on, and makes them ready for the host.
+    void copy_out(std::span<const graph::Graph::Readback> readbacks, const Buffer& to,
+                  std::span<const VkDeviceSize> offsets) const;
+
+  private:
+    void record_draw(const graph::Draw& draw, const graph::RasterPass& pass);
+    void begin_rendering(const graph::RasterPass& pass, const graph::PassPlan& planned,
+                         VkExtent2D extent) const;
+    VkDescriptorSet write_set(const Pipeline& pipeline, const graph::BindingScope& scope);
+    VkDescriptorBufferInfo upload(const graph::ShaderGroup::Binding& binding,
+                                  const graph::Bindings::Data& data);
+
+    const Device& device;
+    const graph::Graph& graph;
+    Pipelines& pipelines;
+    FrameSlot& slot;
+    VkCommandBuffer commands;
+    std::span<const BoundImage> images; // by ImageId
+};
+
+} // namespace gpu

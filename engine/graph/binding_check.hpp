@@ -1,0 +1,33 @@
+// Whether every pass gives its shaders what they ask for, and
+// nothing else. Needs the shaders' reflection, not a device.
+#pragma once
+#include "engine/graph/graph.hpp"
+#include "engine/graph/shader_library.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace graph {
+
+/// The values a draw or dispatch sees: its own first, then its pass's.
+class BindingScope
+{
+  public:
+    explicit BindingScope(const ComputePass& pass) : own(pass), outer(nullptr) {}
+    BindingScope(const Draw& draw, const RasterPass& pass) : own(draw), outer(&pass) {}
+
+    const Bindings::Sampled* sampled(std::string_view name) const;
+    const Bindings::Stored* stored(std::string_view name) const;
+    const Bindings::Data* data(std::string_view name) const;
+    const Constant* constant(std::string_view name) const;
+
+  private:
+    const Bindings& own;
+    const Bindings* outer;
+};
+
+/// One line for every mistake: "pass forward: shader forward is given no value for albedo".
+std::vector<std::string> check_bindings(const Graph& graph, const ShaderLibrary& library);
+
+} // namespace graph

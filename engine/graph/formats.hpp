@@ -1,0 +1,25 @@
+// The image formats this renderer uses, as one table.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <volk.h>
+
+namespace graph {
+
+struct Format
+{
+    VkFormat format;
+    const char* name;            // "RGBA16F"
+    std::uint32_t bytes;         // of a texel
+    int cv_type;                 // of the cv::Mat that holds it on the CPU
+    VkFormatFeatureFlags needed; // what the device must be able to do with it, optimal tiling
+};
+
+std::span<const Format> formats();
+
+/// Null when the format is not in the table.
+const Format* find_format(VkFormat format);
+
+bool is_depth(VkFormat format);
+
+} // namespace graph

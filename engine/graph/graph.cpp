@@ -1,0 +1,116 @@
+#include "engine/graph/graph.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace graph {
+
+namespace {
+
+/// Adds `value`, or puts it in the place of the one of the same name.
+template <typename Named>
+void put(std::vector<Named>& list, Named value)
+{
+    const auto same =
+        std::find_if(list.begin(), list.end(), [&](const Named& other) { return other.name == value.name; });
+    if (same != list.end())
+        *same = std::move(value);
+    else
+        list.push_back(std::move(value));
+}
+
+} // namespace
+
+void Bindings::sample(std::string_view name, ImageId image, Sampler sampler)
+{
+    sample(name, std::span(&image, 1), sampler);
+}
+
+void Bindings::sample(std::string_view name, std::span<const ImageId> images, Sampler sampler)
+{
+    put(sampled, Sampled{std::string(name), {images.begin(), images.end()}, sampler});
+}
+
+void Bindings::store(std::string_view name, ImageId image)
+{
+    put(stored, Stored{std::string(name), image});
+}
+
+void Bindings::constant(std::string_view name, Constant value)
+{
+    constants.insert_or_assign(std::string(name), value);
+}
+
+void Bindings::bytes(std::string_view name, std::span<const std::byte> value, bool storage)
+{
+    put(data, Data{std::string(name), {value.begin(), value.end()}, storage});
+}
+
+void ComputePass::dispatch(std::uint32_t invocations_x, std::uint32_t invocations_y)
+{
+    width = invocations_x;
+    height = invocations_y;
+}
+
+void RasterPass::color(ImageId image, std::array<float, 4> clear, ImageId resolve)
+{
+    colors.push_back({image, resolve, clear});
+}
+
+void RasterPass::depth(ImageId image, float clear)
+{
+    depth_image = image;
+    depth_clear = clear;
+}
+
+Draw& RasterPass::draw(std::string_view shader)
+{
+    Draw& added = draws.emplace_back();
+    added.shader = shader;
+    return added;
+}
+
+ImageId Graph::image(std::string_view name, const ImageDesc& desc)
+{
+    images.push_back({name_prefix + std::string(name), desc, {}});
+    return {static_cast<std::uint32_t>(images.size() - 1)};
+}
+
+ImageId Graph::import(std::string_view name, const ExternalImage& external)
+{
+    images.push_back({name_prefix + std::string(name), external.desc, external});
+    return {static_cast<std::uint32_t>(images.size() - 1)};
+}
+
+ComputePass& Graph::compute(std::string_view name, std::string_view shader)
+{
+    ComputePass pass;
+    pass.name = name_prefix + std::string(name);
+    pass.shader = shader;
+    return std::get<ComputePass>(passes.emplace_back(std::move(pass)));
+}
+
+RasterPass& Graph::raster(std::string_view name)
+{
+    RasterPass pass;
+    pass.name = name_prefix + std::string(name);
+    return std::get<RasterPass>(passes.emplace_back(std::move(pass)));
+}
+
+ReadbackId Graph::readback(std::string_view name, ImageId image)
+{
+    readbacks.push_back({std::string(name), image});
+    return {static_cast<std::uint32_t>(readbacks.size() - 1)};
+}
+
+void Graph::present(ImageId image)
+{
+    presented.push_back(image);
+}
+
+const std::string& name_of(const Pass& pass)
+{
+    return std::visit([](const auto& p) -> const std::string& { return p.name; }, pass);
+}
+
+} // namespace graph

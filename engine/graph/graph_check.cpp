@@ -1,0 +1,323 @@
+#include "engine/graph/graph_check.hpp"
+
+#include "engine/graph/formats.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+namespace graph {
+
+namespace {
+
+/// Collects the lines about one graph.
+class Checker
+{
+  public:
+    explicit Checker(const Graph& checked) : graph(checked), writers(checked.images.size()) {}
+
+    std::vector<std::string> run()
+    {
+        check_images();
+        check_names();
+        for (const Pass& pass : graph.passes)
+            for (const ImageAccess& access : accesses(pass))
+                if (access_row(access.usage).writes && known(access.image))
+                    writers[access.image.index].push_back(name_of(pass));
+        for (const Pass& pass : graph.passes) {
+            check_accesses(pass);
+            std::visit([&](const auto& p) { check_pass(p); }, pass);
+        }
+        check_writers();
+        check_outputs();
+        check_cycles();
+        return std::move(lines);
+    }
+
+  private:
+    template <typename... Args>
+    void complain(fmt::format_string<Args...> format, Args&&... args)
+    {
+        lines.push_back(fmt::format(format, std::forward<Args>(args)...));
+    }
+
+    bool known(ImageId id) const { return id.index < graph.images.size(); }
+    const Graph::Image& image(ImageId id) const { return graph.images[id.index]; }
+    std::string image_name(ImageId id) const
+    {
+        return known(id) ? image(id).name : "an image that is not declared";
+    }
+
+    void check_images()
+    {
+        std::set<std::string> names;
+        for (const Graph::Image& image : graph.images) {
+            if (image.name.empty())
+                complain("image without a name");
+            if (!names.insert(image.name).second)
+                complain("image {}: declared twice", image.name);
+            if (image.desc.width == 0 || image.desc.height == 0)
+                complain("image {}: its size is {} x {}", image.name, image.desc.width, image.desc.height);
+            if (!find_format(image.desc.format))
+                complain("image {}: its format is not one of engine/formats.cpp", image.name);
+            if (image.desc.samples != 1 && image.desc.samples != 4)
+                complain("image {}: {} samples, and only 1 and 4 are possible", image.name,
+                         image.desc.samples);
+        }
+    }
+
+    void check_names()
+    {
+        std::set<std::string> names;
+        for (const Pass& pass : graph.passes) {
+            if (name_of(pass).empty())
+                complain("pass without a name");
+            if (!names.insert(name_of(pass)).second)
+                complain("pass {}: declared twice", name_of(pass));
+        }
+    }
+
+    void check_accesses(const Pass& pass)
+    {
+        const std::string& name = name_of(pass);
+        std::set<std::uint32_t> read;
+        for (const auto& [id, usage] : accesses(pass)) {
+            if (!known(id)) {
+                complain("pass {}: uses {}", name, image_name(id));
+                continue;
+            }
+            const Graph::Image& used = image(id);
+            const bool depth = is_depth(used.desc.format);
+            if (!access_row(usage).writes) {
+                read.insert(id.index);
+                if (!used.external && writers[id.index].empty())
+                    complain("pass {}: samples {}, which nobody writes", name, used.name);
+                if (used.desc.samples != 1)
+                    complain("pass {}: samples {}, which is multisampled; resolve it first", name, used.name);
+                continue;
+            }
+            if (used.external)
+                complain("pass {}: writes {}, which is imported", name, used.name);
+            if (read.contains(id.index))
+                complain("pass {}: samples {}, which it also writes", name, used.name);
+            if (depth != (usage == Usage::Depth))
+                complain("pass {}: uses {} as {}, which its {} format does not allow", name, used.name,
+                         access_row(usage).name, depth ? "depth" : "colour");
+        }
+    }
+
+    /// No device need be able to filter depth.
+    void check_samplers(const std::string& pass, const Bindings& bindings)
+    {
+        for (const Bindings::Sampled& sampled : bindings.sampled)
+            for (const ImageId id : sampled.images)
+                if (known(id) && is_depth(image(id).desc.format) && sampled.sampler != Sampler::NearestClamp)
+                    complain("pass {}: samples {} with a filter, which its depth format does not allow; "
+                             "NearestClamp does",
+                             pass, image_name(id));
+    }
+
+    void check_pass(const ComputePass& pass)
+    {
+        check_samplers(pass.name, pass);
+        if (pass.stored.empty())
+            complain("pass {}: stores to no image", pass.name);
+        if (pass.width == 0 || pass.height == 0)
+            complain("pass {}: dispatches {} x {} invocations", pass.name, pass.width, pass.height);
+        for (const Bindings::Stored& stored : pass.stored)
+            if (known(stored.image) && image(stored.image).desc.samples != 1)
+                complain("pass {}: stores to {}, which is multisampled", pass.name, image_name(stored.image));
+    }
+
+    void check_pass(const RasterPass& pass)
+    {
+        if (pass.colors.empty() && !pass.depth_image.valid())
+            complain("pass {}: has no target", pass.name);
+        if (pass.draws.empty())
+            complain("pass {}: draws nothing", pass.name);
+        check_samplers(pass.name, pass);
+        for (const Draw& draw : pass.draws) {
+            check_samplers(pass.name, draw);
+            if (!draw.mesh && draw.index_count == 0)
+                complain("pass {}: draw {} has neither a mesh nor a number of vertices", pass.name,
+                         draw.shader);
+            if (!draw.stored.empty())
+                complain("pass {}: draw {} stores to an image; only a compute pass can", pass.name,
+                         draw.shader);
+        }
+        if (!pass.stored.empty())
+            complain("pass {}: stores to an image; only a compute pass can", pass.name);
+        check_targets(pass);
+    }
+
+    void check_targets(const RasterPass& pass)
+    {
+        std::optional<ImageDesc> common;
+        const auto same = [&](ImageId id) {
+            if (!known(id))
+                return; // said by check_accesses
+            const ImageDesc& desc = image(id).desc;
+            if (!common)
+                common = desc;
+            if (desc.width != common->width || desc.height != common->height)
+                complain("pass {}: {} is {} x {}, its other targets are {} x {}", pass.name, image_name(id),
+                         desc.width, desc.height, common->width, common->height);
+            if (desc.samples != common->samples)
+                complain("pass {}: {} has {} samples, its other targets have {}", pass.name, image_name(id),
+                         desc.samples, common->samples);
+        };
+        for (const RasterPass::ColorTarget& target : pass.colors)
+            same(target.image);
+        if (pass.depth_image.valid())
+            same(pass.depth_image);
+        for (const RasterPass::ColorTarget& target : pass.colors)
+            if (target.resolve.valid() && known(target.resolve) && known(target.image))
+                check_resolve(pass.name, target);
+    }
+
+    void check_resolve(const std::string& pass, const RasterPass::ColorTarget& target)
+    {
+        const ImageDesc& from = image(target.image).desc;
+        ImageDesc expected = from;
+        expected.samples = 1;
+        if (from.samples == 1)
+            complain("pass {}: {} is resolved but not multisampled", pass, image_name(target.image));
+        if (image(target.resolve).desc != expected)
+            complain(
+                "pass {}: {} cannot take the resolve of {}: same size and format and 1 sample are needed",
+                pass, image_name(target.resolve), image_name(target.image));
+    }
+
+    void check_writers()
+    {
+        for (std::size_t i = 0; i < writers.size(); ++i)
+            if (writers[i].size() > 1)
+                complain("pass {}: writes {}, which pass {} writes too", writers[i][1], graph.images[i].name,
+                         writers[i][0]);
+    }
+
+    void check_outputs()
+    {
+        std::set<std::string> names;
+        for (const Graph::Readback& readback : graph.readbacks) {
+            if (!names.insert(readback.name).second)
+                complain("readback {}: declared twice", readback.name);
+            check_output("readback " + readback.name, readback.image);
+        }
+        for (const ImageId id : graph.presented)
+            check_output("present", id);
+    }
+
+    void check_output(const std::string& who, ImageId id)
+    {
+        if (!known(id))
+            complain("{}: of {}", who, image_name(id));
+        else if (image(id).external)
+            complain("{}: of {}, which is imported", who, image_name(id));
+        else if (writers[id.index].empty())
+            complain("{}: of {}, which nobody writes", who, image_name(id));
+        else if (image(id).desc.samples != 1)
+            complain("{}: of {}, which is multisampled", who, image_name(id));
+    }
+
+    void check_cycles()
+    {
+        const std::vector<std::uint32_t> order = order_passes(graph);
+        std::vector<std::string> stuck;
+        for (std::uint32_t i = 0; i < graph.passes.size(); ++i)
+            if (std::find(order.begin(), order.end(), i) == order.end())
+                stuck.push_back(name_of(graph.passes[i]));
+        if (!stuck.empty())
+            complain("pass {}: no order is possible, these passes need each other's images: {}",
+                     stuck.front(), fmt::join(stuck, ", "));
+    }
+
+    const Graph& graph;
+    std::vector<std::vector<std::string>> writers; // of each image, names of passes
+    std::vector<std::string> lines;
+};
+
+void add_sampled(std::vector<ImageAccess>& list, const Bindings& bindings, Usage usage)
+{
+    for (const Bindings::Sampled& sampled : bindings.sampled)
+        for (const ImageId id : sampled.images)
+            list.push_back({id, usage});
+}
+
+} // namespace
+
+std::vector<ImageAccess> accesses(const Pass& pass)
+{
+    std::vector<ImageAccess> list;
+    if (const auto* compute = std::get_if<ComputePass>(&pass)) {
+        add_sampled(list, *compute, Usage::SampledInCompute);
+        for (const Bindings::Stored& stored : compute->stored)
+            list.push_back({stored.image, Usage::Stored});
+        return list;
+    }
+    const auto& raster = std::get<RasterPass>(pass);
+    add_sampled(list, raster, Usage::SampledInRaster);
+    for (const Draw& draw : raster.draws)
+        add_sampled(list, draw, Usage::SampledInRaster);
+    for (const RasterPass::ColorTarget& target : raster.colors) {
+        list.push_back({target.image, Usage::Color});
+        if (target.resolve.valid())
+            list.push_back({target.resolve, Usage::Color});
+    }
+    if (raster.depth_image.valid())
+        list.push_back({raster.depth_image, Usage::Depth});
+    return list;
+}
+
+std::vector<std::string> check_graph(const Graph& graph)
+{
+    return Checker(graph).run();
+}
+
+std::vector<std::uint32_t> order_passes(const Graph& graph)
+{
+    const auto count = static_cast<std::uint32_t>(graph.passes.size());
+    std::vector<std::vector<ImageAccess>> touched(count);
+    std::map<std::uint32_t, std::set<std::uint32_t>>
+        unwritten; // image -> its writers that are not yet in the order
+    for (std::uint32_t i = 0; i < count; ++i) {
+        touched[i] = accesses(graph.passes[i]);
+        for (const ImageAccess& access : touched[i])
+            if (access_row(access.usage).writes)
+                unwritten[access.image.index].insert(i);
+    }
+    const auto ready = [&](std::uint32_t pass) {
+        return std::all_of(touched[pass].begin(), touched[pass].end(), [&](const ImageAccess& access) {
+            const auto writers = unwritten.find(access.image.index);
+            return access_row(access.usage).writes || writers == unwritten.end() || writers->second.empty() ||
+                   writers->second.contains(pass);
+        });
+    };
+    std::vector<std::uint32_t> order;
+    std::vector<bool> done(count);
+    for (bool progress = true; progress;) {
+        progress = false;
+        for (std::uint32_t i = 0; i < count && !progress; ++i) {
+            if (done[i] || !ready(i))
+                continue;
+            done[i] = progress = true; // and start again at the first: as declared, wherever that is possible
+            order.push_back(i);
+            for (const ImageAccess& access : touched[i])
+                if (access_row(access.usage).writes)
+                    unwritten[access.image.index].erase(i);
+        }
+    }
+    return order;
+}
+
+void throw_if_any(const std::vector<std::string>& problems)
+{
+    if (!problems.empty())
+        throw std::logic_error(
+            fmt::format("the render graph is declared wrongly:\n  {}", fmt::join(problems, "\n  ")));
+}
+
+} // namespace graph

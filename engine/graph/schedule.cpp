@@ -1,0 +1,320 @@
+#include "engine/graph/schedule.hpp"
+
+#include "base/hash.hpp"
+#include "engine/graph/graph_check.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace graph {
+
+namespace {
+
+void add_bindings(std::vector<KeyPart>& key, const std::string& prefix, const Bindings& bindings)
+{
+    for (const auto& [name, value] : bindings.constants) {
+        base::Hash hash;
+        hash.add(value.index());
+        std::visit([&](auto v) { hash.add(v); }, value);
+        key.push_back({prefix + "constant " + name, hash.value()});
+    }
+    for (const Bindings::Data& data : bindings.data)
+        key.push_back({prefix + (data.storage ? "buffer " : "uniform ") + data.name,
+                       base::Hash().add(data.bytes).value()});
+    for (const Bindings::Stored& stored : bindings.stored)
+        key.push_back({prefix + "stored " + stored.name, base::Hash().add(stored.image.index).value()});
+}
+
+void add_draw(std::vector<KeyPart>& key, const std::string& prefix, const Draw& draw)
+{
+    base::Hash hash;
+    hash.add(draw.shader)
+        .add(draw.mesh ? draw.mesh->content() : 0)
+        .add(draw.first_index)
+        .add(draw.index_count);
+    hash.add(draw.cull_back_faces).add(draw.blend).add(draw.depth_test).add(draw.depth_write);
+    key.push_back({prefix + "draw", hash.value()});
+    add_bindings(key, prefix, draw);
+}
+
+/// What a pass declares, images apart.
+std::vector<KeyPart> declared_key(const Pass& pass)
+{
+    std::vector<KeyPart> key;
+    if (const auto* compute = std::get_if<ComputePass>(&pass)) {
+        key.push_back({"shader", base::Hash().add(compute->shader).value()});
+        key.push_back({"dispatch", base::Hash().add(compute->width).add(compute->height).value()});
+        add_bindings(key, "", *compute);
+        return key;
+    }
+    const auto& raster = std::get<RasterPass>(pass);
+    base::Hash targets;
+    for (const RasterPass::ColorTarget& target : raster.colors) {
+        targets.add(target.resolve.valid());
+        for (const float channel : target.clear)
+            targets.add(channel);
+    }
+    key.push_back({"targets", targets.add(raster.depth_image.valid()).add(raster.depth_clear).value()});
+    add_bindings(key, "", raster);
+    for (std::size_t i = 0; i < raster.draws.size(); ++i)
+        add_draw(key, raster.draws.size() == 1 ? "" : fmt::format("draw {}: ", i), raster.draws[i]);
+    return key;
+}
+
+/// One frame's worth of work on a copy of the memory.
+class Scheduler
+{
+  public:
+    Scheduler(const Graph& scheduled, const Memory& remembered)
+        : graph(scheduled), before(remembered), states(scheduled.images.size()),
+          content_versions(scheduled.images.size())
+    {
+    }
+
+    Plan run()
+    {
+        for (const std::uint32_t pass : order_passes(graph))
+            plan.passes.push_back({.pass = pass, .name = name_of(graph.passes[pass])});
+        for (const PassPlan& pass : plan.passes)
+            touched.push_back(accesses(graph.passes[pass.pass]));
+        plan.images.resize(graph.images.size());
+        plan.memory.frames = before.frames + 1;
+        cull();
+        recall_images();
+        for (std::uint32_t position = 0; position < plan.passes.size(); ++position)
+            plan_pass(position);
+        finish();
+        return std::move(plan);
+    }
+
+  private:
+    const std::string& image_name(ImageId id) const { return graph.images[id.index].name; }
+    static bool writes(const ImageAccess& access) { return access_row(access.usage).writes; }
+
+    /// From the outputs backwards: a pass is needed when one of its images is.
+    void cull()
+    {
+        for (const Graph::Readback& readback : graph.readbacks)
+            need(readback.image);
+        for (const ImageId id : graph.presented)
+            need(id);
+        for (std::size_t i = plan.passes.size(); i-- > 0;) {
+            PassPlan& pass = plan.passes[i];
+            const bool needed =
+                std::any_of(touched[i].begin(), touched[i].end(), [&](const ImageAccess& access) {
+                    return writes(access) && plan.images[access.image.index].needed;
+                });
+            for (const ImageAccess& access : touched[i]) {
+                plan.images[access.image.index].usage |= access_row(access.usage).image;
+                if (needed && !writes(access))
+                    plan.images[access.image.index].needed = true;
+            }
+            if (!needed) {
+                pass.state = PassState::Culled;
+                pass.reason = why_culled(i);
+            }
+        }
+    }
+
+    void need(ImageId id)
+    {
+        plan.images[id.index].needed = true;
+        plan.images[id.index].usage |= access_row(Usage::CopySource).image;
+    }
+
+    std::string why_culled(std::size_t position) const
+    {
+        const auto output = std::find_if(touched[position].begin(), touched[position].end(), writes);
+        for (std::size_t i = position + 1; i < plan.passes.size(); ++i)
+            for (const ImageAccess& access : touched[i])
+                if (!writes(access) && access.image == output->image)
+                    return fmt::format("unused: only {} samples {}, and it is culled", plan.passes[i].name,
+                                       image_name(output->image));
+        return "unused: nothing samples " + image_name(output->image);
+    }
+
+    /// What is known about the images' contents; an image that must be made anew has none.
+    void recall_images()
+    {
+        for (std::size_t i = 0; i < graph.images.size(); ++i) {
+            const Graph::Image& image = graph.images[i];
+            const auto remembered = before.images.find(image.name);
+            if (remembered != before.images.end() && remembered->second.desc == image.desc &&
+                (plan.images[i].usage & ~remembered->second.usage) == 0)
+                states[i] = remembered->second;
+            else
+                states[i] = {.desc = image.desc, .usage = plan.images[i].usage};
+            if (image.external)
+                content_versions[i] = image.external->content;
+        }
+    }
+
+    void plan_pass(std::uint32_t position)
+    {
+        PassPlan& planned = plan.passes[position];
+        if (planned.state == PassState::Culled) {
+            if (const auto key = before.passes.find(planned.name); key != before.passes.end())
+                plan.memory.passes.insert(*key);
+            return;
+        }
+        for (const ImageAccess& access : touched[position]) {
+            ImagePlan& image = plan.images[access.image.index];
+            image.first = std::min(image.first, position);
+            image.last = position;
+        }
+        std::vector<KeyPart> key = full_key(position);
+        const bool always = std::visit([](const auto& p) { return p.always; }, graph.passes[planned.pass]);
+        const std::string lost = stamp_outputs(position, key, always);
+        if (lost.empty()) {
+            planned.state = PassState::Skipped;
+            planned.reason = "unchanged";
+        } else {
+            planned.reason = always ? "every frame" : why_run(planned.name, key, lost);
+            place(position);
+        }
+        plan.memory.passes[planned.name] = std::move(key);
+    }
+
+    std::vector<KeyPart> full_key(std::uint32_t position) const
+    {
+        std::vector<KeyPart> key = declared_key(graph.passes[plan.passes[position].pass]);
+        for (const ImageAccess& access : touched[position]) {
+            const ImageDesc& desc = graph.images[access.image.index].desc;
+            if (writes(access))
+                key.push_back({"size of " + image_name(access.image), base::Hash()
+                                                                          .add(desc.width)
+                                                                          .add(desc.height)
+                                                                          .add(desc.format)
+                                                                          .add(desc.samples)
+                                                                          .value()});
+            else
+                key.push_back({"input " + image_name(access.image), content_versions[access.image.index]});
+        }
+        add_samplers(key, graph.passes[plan.passes[position].pass]);
+        return key;
+    }
+
+    /// Which image goes to which name of the shader, and how it is filtered.
+    static void add_samplers(std::vector<KeyPart>& key, const Pass& pass)
+    {
+        base::Hash hash;
+        const auto add = [&](const Bindings& bindings) {
+            for (const Bindings::Sampled& sampled : bindings.sampled) {
+                hash.add(sampled.name).add(sampled.sampler).add(sampled.images.size());
+            }
+        };
+        if (const auto* raster = std::get_if<RasterPass>(&pass)) {
+            add(*raster);
+            for (const Draw& draw : raster->draws)
+                add(draw);
+        } else
+            add(std::get<ComputePass>(pass));
+        key.push_back({"samplers", hash.value()});
+    }
+
+    /// Gives every output its content_version and returns the first
+    /// needed one that does not hold it already; empty: all do.
+    std::string stamp_outputs(std::uint32_t position, const std::vector<KeyPart>& key, bool always)
+    {
+        base::Hash hash;
+        for (const KeyPart& part : key)
+            hash.add(part.what).add(part.hash);
+        if (always)
+            hash.add(plan.memory.frames); // never the same again
+        std::string lost;
+        for (const ImageAccess& access : touched[position]) {
+            if (!writes(access))
+                continue;
+            const std::uint32_t image = access.image.index;
+            content_versions[image] = base::Hash(hash).add(image_name(access.image)).value();
+            if (lost.empty() && plan.images[image].needed &&
+                states[image].content_version != content_versions[image])
+                lost = image_name(access.image);
+        }
+        return lost;
+    }
+
+    std::string why_run(const std::string& pass, const std::vector<KeyPart>& key,
+                        const std::string& lost) const
+    {
+        const auto last = before.passes.find(pass);
+        if (last == before.passes.end())
+            return "first run";
+        for (std::size_t i = 0; i < key.size(); ++i)
+            if (i >= last->second.size() || last->second[i] != key[i])
+                return "changed: " + key[i].what;
+        if (last->second.size() > key.size())
+            return "changed: " + last->second[key.size()].what + " is gone";
+        return "changed: the contents of " + lost + " were not kept";
+    }
+
+    /// Barriers, store ops and what the images hold afterwards.
+    void place(std::uint32_t position)
+    {
+        PassPlan& planned = plan.passes[position];
+        for (const ImageAccess& access : touched[position]) {
+            const std::uint32_t image = access.image.index;
+            if (graph.images[image].external)
+                continue; // always ready to be sampled
+            if (const auto barrier = advance(states[image].access, access.usage))
+                planned.barriers.push_back({access.image, *barrier});
+            if (writes(access))
+                states[image].content_version = plan.images[image].needed ? content_versions[image] : 0;
+        }
+        const auto store = [&](ImageId id) {
+            return id.valid() && plan.images[id.index].needed ? VK_ATTACHMENT_STORE_OP_STORE
+                                                              : VK_ATTACHMENT_STORE_OP_DONT_CARE;
+        };
+        if (const auto* raster = std::get_if<RasterPass>(&graph.passes[planned.pass])) {
+            for (const RasterPass::ColorTarget& target : raster->colors) {
+                planned.color_stores.push_back(store(target.image));
+                planned.resolve_stores.push_back(store(target.resolve));
+            }
+            planned.depth_store = store(raster->depth_image);
+        }
+    }
+
+    void finish()
+    {
+        std::vector<ImageId> outputs = graph.presented;
+        for (const Graph::Readback& readback : graph.readbacks)
+            outputs.push_back(readback.image);
+        for (const ImageId id : outputs)
+            if (const auto barrier = advance(states[id.index].access, Usage::CopySource))
+                plan.final_barriers.push_back({id, *barrier});
+        for (std::size_t i = 0; i < graph.images.size(); ++i)
+            if (!graph.images[i].external)
+                plan.memory.images.emplace(graph.images[i].name, states[i]);
+    }
+
+    const Graph& graph;
+    const Memory& before;
+    Plan plan;
+    std::vector<std::vector<ImageAccess>> touched; // by position in plan.passes
+    std::vector<ImageState> states;                // by image
+    std::vector<std::uint64_t>
+        content_versions; // by image: what it holds once its writer has run or been skipped
+};
+
+} // namespace
+
+Plan schedule(const Graph& graph, const Memory& memory)
+{
+    throw_if_any(check_graph(graph));
+    return Scheduler(graph, memory).run();
+}
+
+const char* name_of(PassState state)
+{
+    switch (state) {
+    case PassState::Run:
+        return "ran";
+    case PassState::Skipped:
+        return "skipped";
+    case PassState::Culled:
+        break;
+    }
+    return "culled";
+}
+
+} // namespace graph

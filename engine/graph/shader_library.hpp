@@ -1,0 +1,59 @@
+// The compiled shaders by name, reflected on first use, and the groups of stages that make up a pipeline.
+#pragma once
+#include "engine/graph/embedded_shaders.hpp"
+#include "engine/graph/spirv.hpp"
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace graph {
+
+struct Shader
+{
+    std::string_view name;
+    std::span<const std::uint32_t> words;
+    ShaderInterface interface;
+};
+
+/// The stages of one pipeline and what they want together.
+struct ShaderGroup
+{
+    struct Binding : ShaderBinding
+    {
+        VkShaderStageFlags stages = 0;
+    };
+    std::string name;
+    std::vector<const Shader*> stages; // one compute shader, or vertex and fragment
+    std::vector<Binding> bindings;
+    std::vector<ShaderConstant> constants; // by name; stages may use different ids for one name
+    std::vector<std::string> problems;     // why it cannot be used; empty: fine
+
+    const Binding* find_binding(std::string_view binding) const;
+    const ShaderConstant* find_constant(std::string_view constant) const;
+};
+
+class ShaderLibrary
+{
+  public:
+    /// The tables must outlive the library.
+    explicit ShaderLibrary(std::span<const EmbeddedShader> shaders = embedded_shaders());
+    void add(std::span<const EmbeddedShader> shaders);
+
+    /// Null when there is no such shader. "forward.frag"
+    const Shader* find(std::string_view name) const;
+
+    /// "wound_texture.comp" is that compute shader, "forward" is
+    /// forward.vert with forward.frag. Problems are in the group.
+    const ShaderGroup& group(std::string_view name) const;
+
+  private:
+    std::map<std::string, std::span<const std::uint32_t>, std::less<>> words;
+    mutable std::map<std::string, std::unique_ptr<Shader>, std::less<>> reflected;
+    mutable std::map<std::string, std::unique_ptr<ShaderGroup>, std::less<>> groups;
+};
+
+} // namespace graph

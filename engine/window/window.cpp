@@ -1,0 +1,226 @@
+#include "engine/window/window.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <cstdio>
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <utility>
+
+#include "base/input_error.hpp"
+#include "engine/gpu/vulkan_check.hpp"
+
+// Declared by GLFW only where Vulkan's own prototypes are, which volk replaces.
+extern "C" {
+const char** glfwGetRequiredInstanceExtensions(std::uint32_t* count);
+int glfwGetPhysicalDevicePresentationSupport(VkInstance instance, VkPhysicalDevice device,
+                                             std::uint32_t queue_family);
+VkResult glfwCreateWindowSurface(VkInstance instance, GLFWwindow* window,
+                                 const VkAllocationCallbacks* allocator, VkSurfaceKHR* surface);
+}
+
+namespace window {
+
+namespace {
+
+using base::InputError;
+
+constexpr const char* without_window = "cicatrix capture works without a window";
+
+std::string last_glfw_error()
+{
+    const char* description = nullptr;
+    glfwGetError(&description);
+    return description ? description : "no reason given";
+}
+
+Window& self(GLFWwindow* window)
+{
+    return *static_cast<Window*>(glfwGetWindowUserPointer(window));
+}
+
+Window* the_window = nullptr; // for Xlib's handler, which is given no pointer of ours
+
+/// Xlib ends the process when this returns; its own last words are left out by not returning.
+int display_lost(void*)
+{
+    std::string cure = "open the window again on a running display";
+    if (the_window && the_window->on_display_lost)
+        cure = the_window->on_display_lost();
+    std::fputs(fmt::format("cicatrix: display: the connection was lost; {}\n", cure).c_str(), stderr);
+    std::fflush(nullptr);
+    ::_exit(1);
+}
+
+/// GLFW loads Xlib at run time, and so do we; on other window systems there is none and nothing to do.
+void watch_display()
+{
+    void* xlib = ::dlopen("libX11.so.6", RTLD_NOW | RTLD_NOLOAD);
+    if (xlib == nullptr)
+        return;
+    using Handler = int (*)(void*);
+    using SetHandler = Handler (*)(Handler);
+    if (const auto set = reinterpret_cast<SetHandler>(::dlsym(xlib, "XSetIOErrorHandler")))
+        set(display_lost);
+}
+
+} // namespace
+
+Window::Window(const std::string& title, std::array<int, 2> size)
+{
+    if (!glfwInit())
+        throw InputError("display", fmt::format("no window can be opened: {}", last_glfw_error()),
+                         fmt::format("set DISPLAY (or log in to a desktop); {}", without_window));
+    watch_display();
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    window = glfwCreateWindow(size[0], size[1], title.c_str(), nullptr, nullptr);
+    if (window == nullptr) {
+        const std::string reason = last_glfw_error();
+        glfwTerminate();
+        throw InputError("display", fmt::format("no window can be opened: {}", reason), without_window);
+    }
+    the_window = this;
+    install_callbacks();
+}
+
+Window::~Window()
+{
+    the_window = nullptr;
+    glfwDestroyWindow(window);
+    glfwTerminate();
+}
+
+void Window::install_callbacks()
+{
+    glfwSetWindowUserPointer(window, this);
+    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { self(w).damaged = true; });
+    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { self(w).damaged = true; });
+    glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { self(w).damaged = true; });
+    glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { self(w).damaged = true; });
+    listen_to_keys();
+    // What GLFW tells when asked is where the pointer is now, not where it was at an event.
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+        self(w).pointer = {float(x), float(y)};
+    });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+        self(w).button_changes.push_back({button, action == GLFW_PRESS, self(w).pointer});
+    });
+    glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+        for (int i = 0; i < count; ++i)
+            self(w).dropped.emplace_back(paths[i]);
+    });
+}
+
+std::vector<const char*> Window::instance_extensions() const
+{
+    std::uint32_t count = 0;
+    const char** names = glfwGetRequiredInstanceExtensions(&count);
+    if (names == nullptr)
+        throw InputError(
+            "Vulkan", fmt::format("it cannot draw to this display: {}", last_glfw_error()),
+            fmt::format("install a driver that can (Debian: mesa-vulkan-drivers); {}", without_window));
+    return {names, names + count};
+}
+
+bool Window::can_present(VkInstance instance, VkPhysicalDevice device, std::uint32_t queue_family)
+{
+    return glfwGetPhysicalDevicePresentationSupport(instance, device, queue_family) == GLFW_TRUE;
+}
+
+VkSurfaceKHR Window::make_surface(VkInstance instance) const
+{
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    gpu::check(glfwCreateWindowSurface(instance, window, nullptr, &surface), "draw to the window");
+    return surface;
+}
+
+std::array<std::uint32_t, 2> Window::size() const
+{
+    if (minimised())
+        return {0, 0};
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window, &width, &height);
+    return {std::uint32_t(width), std::uint32_t(height)};
+}
+
+bool Window::minimised() const
+{
+    return glfwGetWindowAttrib(window, GLFW_ICONIFIED) == GLFW_TRUE;
+}
+
+float Window::content_scale() const
+{
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window, &x, &y);
+    return x;
+}
+
+bool Window::close_wanted() const
+{
+    return glfwWindowShouldClose(window) == GLFW_TRUE;
+}
+
+void Window::keep_open()
+{
+    glfwSetWindowShouldClose(window, GLFW_FALSE);
+}
+
+void Window::set_title(const std::string& title)
+{
+    glfwSetWindowTitle(window, title.c_str());
+}
+
+void Window::wait(std::optional<double> seconds)
+{
+    if (!seconds)
+        glfwWaitEvents();
+    else if (*seconds > 0)
+        glfwWaitEventsTimeout(*seconds);
+    else
+        glfwPollEvents();
+}
+
+void Window::wake()
+{
+    glfwPostEmptyEvent();
+}
+
+bool Window::take_damaged()
+{
+    return std::exchange(damaged, false);
+}
+
+void Window::listen_to_keys()
+{
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+        using enum KeyEvent::Kind;
+        KeyEvent event{action == GLFW_PRESS ? Down : action == GLFW_REPEAT ? Repeat : Up, key};
+        // A letter by what it writes, not by its place: Ctrl+Z is where the user's keyboard has its Z.
+        const char* name = glfwGetKeyName(key, scancode);
+        const bool letter = name && name[0] >= 'a' && name[0] <= 'z' && name[1] == 0;
+        event.press = {letter ? name[0] - 'a' + GLFW_KEY_A : key, (mods & GLFW_MOD_CONTROL) != 0,
+                       (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_ALT) != 0};
+        self(w).keyboard.add(event);
+    });
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
+        self(w).keyboard.add({.kind = KeyEvent::Kind::Text, .text = character});
+    });
+}
+
+std::optional<ButtonChange> Window::take_button_change()
+{
+    if (button_changes.empty())
+        return std::nullopt;
+    const ButtonChange change = button_changes.front();
+    button_changes.pop_front();
+    return change;
+}
+
+std::vector<std::filesystem::path> Window::take_dropped()
+{
+    return std::exchange(dropped, {});
+}
+
+} // namespace window

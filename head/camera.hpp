@@ -1,0 +1,21 @@
+// A camera that looks at a head.
+#pragma once
+#include <glm/glm.hpp>
+
+namespace head {
+
+struct Camera
+{
+    glm::dvec3 eye{0, 0, 1}, target{0, 0, 0}; // metres
+    double fov_deg = 20;                      // vertical
+    bool operator==(const Camera&) const = default;
+};
+
+/// To the camera's own coordinates: x right, y up, z towards the viewer.
+glm::dmat4 view_from_world(const Camera& camera);
+
+/// The direction, not of unit length, from the eye through a place of the picture: x from -1 (left) to 1, y
+/// from -1 (top) to 1.
+glm::dvec3 sight_through(const Camera& camera, double x, double y, double aspect);
+
+} // namespace head

@@ -1,0 +1,23 @@
+// What a head's materials stand for.
+#pragma once
+#include <cstdint>
+
+#include "head/model.hpp"
+
+namespace head {
+
+enum class Surface : std::uint8_t
+{
+    Skin, // the material that covers most of the head; takes wounds and translucency
+    Eye,  // smooth and wet: a narrow highlight
+    Hair, // brows and lashes: blended, no highlight, no shadow
+    Other // mouth, clothes: no highlight
+};
+
+/// The material that covers the largest area: the skin.
+std::uint32_t skin_material(const Model& model);
+
+/// Told by the material's name; `skin` is skin_material().
+Surface surface_of(const Model& model, std::uint32_t material, std::uint32_t skin);
+
+} // namespace head

@@ -1,0 +1,104 @@
+#include "head/surface.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace head {
+namespace {
+
+/// Moeller & Trumbore 1997; distance along the direction, in its length, front faces only.
+std::optional<double> hit(const std::array<glm::vec3, 3>& t, const glm::dvec3& origin,
+                          const glm::dvec3& direction)
+{
+    const glm::dvec3 a(t[0]), ab = glm::dvec3(t[1]) - a, ac = glm::dvec3(t[2]) - a;
+    const glm::dvec3 p = glm::cross(direction, ac);
+    const double det = glm::dot(ab, p);
+    if (det <= 1e-18)
+        return std::nullopt;
+    const glm::dvec3 s = origin - a;
+    const double u = glm::dot(s, p) / det;
+    const glm::dvec3 q = glm::cross(s, ab);
+    const double v = glm::dot(direction, q) / det;
+    if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9)
+        return std::nullopt;
+    return glm::dot(ac, q) / det;
+}
+
+/// Ericson 2004, Real-Time Collision Detection, 5.1.5: by the region of the triangle that the point is in.
+glm::dvec3 nearest_in_triangle(const std::array<glm::vec3, 3>& t, const glm::dvec3& p)
+{
+    const glm::dvec3 a(t[0]), b(t[1]), c(t[2]), ab = b - a, ac = c - a;
+    const double d1 = glm::dot(ab, p - a), d2 = glm::dot(ac, p - a);
+    if (d1 <= 0 && d2 <= 0)
+        return a;
+    const double d3 = glm::dot(ab, p - b), d4 = glm::dot(ac, p - b);
+    if (d3 >= 0 && d4 <= d3)
+        return b;
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0)
+        return a + d1 / (d1 - d3) * ab;
+    const double d5 = glm::dot(ab, p - c), d6 = glm::dot(ac, p - c);
+    if (d6 >= 0 && d5 <= d6)
+        return c;
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0)
+        return a + d2 / (d2 - d6) * ac;
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0 && d4 >= d3 && d5 >= d6)
+        return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
+    const double whole = va + vb + vc;
+    return a + vb / whole * ab + vc / whole * ac;
+}
+
+/// Calls `visit(corners, material)` for every triangle that is not hair.
+template <typename Visit>
+void for_each_triangle(const Model& head, const Visit& visit)
+{
+    for (const Primitive& primitive : head.primitives) {
+        if (head.materials[primitive.material].alpha == AlphaMode::Blend)
+            continue;
+        for (std::size_t i = primitive.first_index;
+             i + 2 < std::size_t(primitive.first_index) + primitive.index_count; i += 3)
+            visit(corners_of(head, i), primitive.material);
+    }
+}
+
+} // namespace
+
+std::array<glm::vec3, 3> corners_of(const Model& head, std::size_t first)
+{
+    return {head.vertices[head.indices[first]].position, head.vertices[head.indices[first + 1]].position,
+            head.vertices[head.indices[first + 2]].position};
+}
+
+std::optional<SurfacePoint> first_on_ray(const Model& head, const glm::dvec3& origin,
+                                         const glm::dvec3& direction)
+{
+    std::optional<SurfacePoint> found;
+    double nearest = std::numeric_limits<double>::max();
+    for_each_triangle(head, [&](const std::array<glm::vec3, 3>& corners, std::uint32_t material) {
+        const auto distance = hit(corners, origin, direction);
+        if (!distance || *distance < 0 || *distance >= nearest)
+            return;
+        nearest = *distance;
+        found = {origin + nearest * direction, material};
+    });
+    return found;
+}
+
+SurfacePoint nearest_on_surface(const Model& head, const glm::dvec3& point)
+{
+    SurfacePoint found;
+    double nearest = std::numeric_limits<double>::max();
+    for_each_triangle(head, [&](const std::array<glm::vec3, 3>& corners, std::uint32_t material) {
+        const glm::dvec3 at = nearest_in_triangle(corners, point);
+        const double distance = glm::dot(at - point, at - point);
+        if (distance >= nearest)
+            return;
+        nearest = distance;
+        found = {at, material};
+    });
+    return found;
+}
+
+} // namespace head

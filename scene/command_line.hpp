@@ -1,0 +1,39 @@
+// The command-line options that every command on a scene shares: the scene file and what overrides its
+// fields.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace scene {
+
+/// --seed X,Y and --rect X,Y,W,H: where in a photograph the wound is.
+struct HintOptions
+{
+    std::vector<int> seed, rect;
+    /// Throws base::InputError when there is a mask, too.
+    wound::SegmentationHints hints(const std::string& mask) const;
+};
+void add_hint_options(CLI::App& command, HintOptions& options);
+
+struct SceneOptions
+{
+    std::string scene, head, wound, mask, days, size, mode, device;
+    HintOptions hints;
+    bool msaa = false, validation = false;
+};
+
+void add_scene_options(CLI::App& command, SceneOptions& options);
+
+/// The scene with the overrides applied. Throws base::InputError.
+Scene chosen_scene(const SceneOptions& options);
+
+/// `--model`, with all names and the default that `model` has.
+void add_model_option(CLI::App& command, optics::ReflectanceModel& model);
+
+} // namespace scene

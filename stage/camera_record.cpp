@@ -1,0 +1,40 @@
+#include "stage/camera_record.hpp"
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace stage {
+namespace {
+using nlohmann::json;
+
+json rows_of(const glm::dmat4& matrix)
+{
+    json rows = json::array();
+    for (int row = 0; row < 4; ++row)
+        rows.push_back({matrix[0][row], matrix[1][row], matrix[2][row], matrix[3][row]});
+    return rows;
+}
+
+json numbers_of(const glm::dvec3& v)
+{
+    return {v.x, v.y, v.z};
+}
+
+} // namespace
+
+json camera_record(const Stage& stage, const head::Camera& camera, std::array<std::uint32_t, 2> size)
+{
+    const double focal = size[1] / 2.0 / std::tan(glm::radians(camera.fov_deg) / 2);
+    // From OpenGL's camera, which looks along -z with y up, to that of computer vision.
+    const glm::dmat4 camera_from_world =
+        glm::scale(glm::dmat4(1), glm::dvec3(1, -1, -1)) * head::view_from_world(camera);
+    return {{"eye", numbers_of(camera.eye)},
+            {"target", numbers_of(camera.target)},
+            {"fov_deg", camera.fov_deg},
+            {"clip_from_world",
+             rows_of(glm::dmat4(stage.view(camera, passes::ViewportTile(size)).clip_from_world))},
+            {"camera_from_world", rows_of(camera_from_world)},
+            {"intrinsics", {{"fx", focal}, {"fy", focal}, {"cx", size[0] / 2.0}, {"cy", size[1] / 2.0}}}};
+}
+
+} // namespace stage

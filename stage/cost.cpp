@@ -1,0 +1,63 @@
+#include "stage/cost.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/statistics.hpp"
+#include "stage/measurement.hpp"
+
+namespace stage {
+namespace {
+using nlohmann::json;
+
+/// Draws the scene with the terms of `shading`; the day moves by `days` over the measurement.
+MeasuredCase variant(const char* name, const Stage& stage, const optics::Shading& shading, double days = 0)
+{
+    return {name, "", [&stage, shading, days](graph::Graph& graph, double position) {
+                const double day = stage.scene().days.front() + days * position;
+                graph.readback("picture", stage
+                                              .declare(graph, {.day = day,
+                                                               .tile = stage.scene().size,
+                                                               .camera = stage.loaded().camera(),
+                                                               .shading = shading})
+                                              .images.picture);
+            }};
+}
+
+} // namespace
+
+json measure_cost(const gpu::Device& device, const graph::ShaderLibrary& library, const Stage& stage,
+                  std::vector<std::string>& lines, int rounds)
+{
+    const optics::Shading everything = stage.scene().shading;
+    optics::Shading opaque = everything, plain = everything;
+    opaque.translucency = false;
+    plain.translucency = plain.normal_map = plain.shadow = false;
+    plain.ambient = {0, 0, 0};
+    const std::vector<Measurement> measured =
+        measure(device, library,
+                {variant("everything", stage, everything), variant("without_translucency", stage, opaque),
+                 variant("ward_lambert_only", stage, plain), variant("moving_day", stage, everything, 1)},
+                {.warm_up = 1, .counted = 0, .timed = rounds});
+
+    json result{{"rounds", rounds}, {"variants", json::object()}};
+    std::vector<double> forward;
+    for (std::size_t i = 0; i < 3; ++i) {
+        forward.push_back(base::median(pass_ms(measured[i], "forward")));
+        result["variants"][measured[i].name] = {{"forward_ms", forward[i]},
+                                                {"frame_ms", base::median(wall_ms(measured[i]))}};
+    }
+    const double still = base::median(wall_ms(measured[0])), moving = base::median(wall_ms(measured[3]));
+    result["translucency_over_none"] = forward[0] / forward[1];
+    result["everything_over_ward_lambert"] = forward[0] / forward[2];
+    result["unchanged_frame_ms"] = still;
+    result["moving_day_over_unchanged"] = moving / still;
+    lines.push_back(fmt::format("forward pass, median of {} frames: everything {:.1f} ms; {:.2f} x without "
+                                "translucency; {:.2f} x Ward and Lambert only",
+                                rounds, forward[0], forward[0] / forward[1], forward[0] / forward[2]));
+    lines.push_back(fmt::format("unchanged frame {:.1f} ms; a frame on which the day moved {:.2f} x that",
+                                still, moving / still));
+    return result;
+}
+
+} // namespace stage

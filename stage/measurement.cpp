@@ -1,0 +1,81 @@
+#include "stage/measurement.hpp"
+
+#include <chrono>
+#include <memory>
+
+namespace stage {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds(Clock::duration time)
+{
+    return std::chrono::duration<double, std::milli>(time).count();
+}
+
+TimedFrame draw(gpu::Executor& executor, const MeasuredCase& drawn, double position, Clock::time_point zero)
+{
+    if (drawn.every_pass)
+        executor.forget();
+    TimedFrame frame;
+    const Clock::time_point start = Clock::now();
+    graph::Graph graph;
+    drawn.declare(graph, position);
+    frame.start_ms = milliseconds(start - zero);
+    frame.declare_ms = milliseconds(Clock::now() - start);
+    frame.result = executor.run(graph);
+    frame.result.readbacks.clear(); // hundreds of pictures
+    frame.result.plan = {};
+    drawn.afterwards();
+    return frame;
+}
+
+} // namespace
+
+std::vector<Measurement> measure(const gpu::Device& device, const graph::ShaderLibrary& library,
+                                 const std::vector<MeasuredCase>& cases, const Rounds& rounds,
+                                 const std::function<void(int)>& progress)
+{
+    std::vector<Measurement> measurements;
+    std::vector<std::unique_ptr<gpu::Executor>> executors;
+    for (const MeasuredCase& one : cases) {
+        measurements.push_back({one.name, one.what, {}, {}});
+        executors.push_back(std::make_unique<gpu::Executor>(device, library));
+    }
+    Clock::time_point zero = Clock::now();
+    for (int round = 0; round < rounds.all(); ++round) {
+        const bool counting = round >= rounds.warm_up && round < rounds.warm_up + rounds.counted;
+        if (round == rounds.warm_up + rounds.counted)
+            zero = Clock::now();
+        for (std::size_t i = 0; i < cases.size(); ++i) {
+            executors[i]->measure({.align = true, .count = counting});
+            TimedFrame frame = draw(*executors[i], cases[i], double(round) / rounds.all(), zero);
+            if (counting)
+                measurements[i].counted.push_back(std::move(frame));
+            else if (round >= rounds.warm_up)
+                measurements[i].frames.push_back(std::move(frame));
+        }
+        progress(round + 1);
+    }
+    return measurements;
+}
+
+std::vector<double> pass_ms(const Measurement& measurement, std::string_view pass)
+{
+    std::vector<double> times;
+    for (const TimedFrame& frame : measurement.frames)
+        for (const gpu::PassResult& result : frame.result.passes)
+            if (result.name == pass && result.state == graph::PassState::Run)
+                times.push_back(result.gpu_ms.value_or(result.cpu_ms));
+    return times;
+}
+
+std::vector<double> wall_ms(const Measurement& measurement)
+{
+    std::vector<double> times;
+    for (const TimedFrame& frame : measurement.frames)
+        times.push_back(frame.wall_ms());
+    return times;
+}
+
+} // namespace stage

@@ -1,0 +1,234 @@
+#include "stage/stage.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/input_error.hpp"
+#include "passes/split.hpp"
+#include "wound/reflectance_table.hpp"
+
+namespace stage {
+namespace {
+
+const optics::ReflectanceOptions table_options{.angles = 4, .photons = 2000}; // photons: per wavelength
+
+/// Days that are remembered: those of a report's cases, drawn in turn, and of two stages side by side.
+constexpr std::size_t most_known_days = 4;
+
+double last_day(const scene::Scene& scene)
+{
+    return std::max(1.0, *std::ranges::max_element(scene.days));
+}
+
+/// Whether the wounds of both are the same on every day.
+bool same_wounds(const scene::LoadedScene& a, const scene::LoadedScene& b)
+{
+    return std::ranges::equal(a.wounds, b.wounds, [](const auto& one, const auto& other) {
+        return one.photograph == other.photograph && one.part == other.part && one.healing == other.healing;
+    });
+}
+
+} // namespace
+
+Stage::Preparation Stage::prepare(const scene::Scene& scene)
+{
+    Preparation preparation{scene, std::make_shared<scene::WoundLoader>(), nullptr};
+    preparation.head = begin_loading(*preparation.loader, scene);
+    return preparation;
+}
+
+Stage::Stage(const gpu::Device& device, const Preparation& preparation)
+    : device_(&device), loader_(preparation.loader), seen_news_(preparation.loader->news())
+{
+    set_.loaded.head = preparation.head; // uploaded while workers are still fitting the wounds to it
+    accept(make(preparation.scene));
+    wait_until_complete();
+}
+
+void Stage::update(const scene::Scene& scene, bool dragging)
+{
+    const bool before = std::exchange(dragging_, dragging);
+    try {
+        accept(make(scene));
+    } catch (...) {
+        dragging_ = before;
+        throw;
+    }
+}
+
+void Stage::accept(Set set)
+{
+    if (!same_wounds(set.loaded, set_.loaded))
+        known_days_.clear();
+    set_ = std::move(set);
+    if (set_.loaded.complete)
+        whole_ = set_;
+}
+
+bool Stage::poll()
+{
+    loader_->collect();
+    if (seen_news_ == loader_->news())
+        return false;
+    seen_news_ = loader_->news();
+    if (set_.loaded.complete)
+        return false; // another stage's news
+    try {
+        accept(make(set_.loaded.scene));
+    } catch (const base::InputError&) {
+        if (whole_.bare) // none is there before the first scene is complete
+            accept(whole_);
+        throw;
+    }
+    return true;
+}
+
+void Stage::wait_until_complete()
+{
+    if (dragging_)
+        update(scene::Scene(scene()));
+    while (pending()) {
+        loader_->wait();
+        poll();
+    }
+}
+
+void Stage::prefetch(const scene::Scene& scene) const
+{
+    try {
+        const auto head = loader_->head(scene.head, set_.loaded.head);
+        for (std::size_t i = 0; i < scene.wounds.size(); ++i)
+            if (const std::string name = name_of(scene.wounds[i], i); head)
+                loader_->fitted(scene.wounds[i], head, name);
+            else
+                loader_->begin(scene.wounds[i], name);
+    } catch (const base::InputError&) {
+        return; // tried again by update()
+    }
+}
+
+Stage::Set Stage::make(const scene::Scene& scene) const
+{
+    Set set;
+    set.loaded = assemble(scene, *loader_, set_.loaded, dragging_);
+    const head::Model& model = *set.loaded.head->model;
+    set.bare = set_.bare && set.loaded.head == set_.loaded.head
+                   ? set_.bare
+                   : std::make_shared<const passes::Head>(passes::upload_head(*device_, model));
+    const std::vector<head::Anchor> anchors = set.loaded.anchors();
+    set.wounded =
+        set.bare == set_.bare && set_.wounded && anchors == set_.loaded.anchors()
+            ? set_.wounded
+            : std::make_shared<const passes::Head>(passes::with_wounds(*device_, *set.bare, model, anchors));
+    for (const scene::PlacedWound& wound : set.loaded.wounds)
+        set.wounds.push_back({maps_of(wound), lut_of(set, wound.healing)});
+    return set;
+}
+
+passes::WoundMaps Stage::maps_of(const scene::PlacedWound& wound) const
+{
+    std::erase_if(*uploaded_, [](const UploadedMaps& maps) { return maps.photograph.expired(); });
+    auto known = std::ranges::find_if(
+        *uploaded_, [&](const UploadedMaps& maps) { return maps.photograph.lock() == wound.photograph; });
+    if (known == uploaded_->end()) {
+        UploadedMaps made{wound.photograph, {}};
+        for (const scene::FittedWound& fitted : wound.photograph->wounds)
+            made.maps.push_back(passes::upload_wound(*device_, fitted.prepared.patch));
+        known = uploaded_->insert(uploaded_->end(), std::move(made));
+    }
+    passes::WoundMaps maps = known->maps[wound.part];
+    if (!wound.region.empty())
+        maps.region = wound.region; // else all of the patch
+    return maps;
+}
+
+/// Kept from the set before as long as tissue and curve stand.
+passes::LutTissue Stage::lut_of(const Set& set, const wound::Healing& healing) const
+{
+    for (std::size_t i = 0; i < set.wounds.size(); ++i)
+        if (set.loaded.wounds[i].healing == healing)
+            return set.wounds[i].tissue;
+    const scene::Scene &now = set.loaded.scene, &before = set_.loaded.scene;
+    if (!set_.wounds.empty() && now.tissue == before.tissue &&
+        now.reflectance_model == before.reflectance_model && last_day(now) == last_day(before))
+        for (std::size_t i = 0; i < set_.wounds.size(); ++i)
+            if (set_.loaded.wounds[i].healing == healing)
+                return set_.wounds[i].tissue;
+    return make_lut(set, healing);
+}
+
+passes::LutTissue Stage::make_lut(const Set& set, const wound::Healing& healing) const
+{
+    const scene::Scene& scene = set.loaded.scene;
+    const wound::LutRows rows = wound::lut_rows(set.loaded.tissue, healing, wound::lut_size, last_day(scene));
+    passes::LutTissue tissue = passes::lut_tissue(rows.days, last_day(scene));
+    if (scene.reflectance_model > optics::ReflectanceModel::Calibrated) // the shader does not know it
+        tissue.table = std::make_shared<gpu::Texture>(passes::upload_reflectance_table(
+            *device_, wound::kept_table(rows, wound::lut_size, scene.reflectance_model, table_options),
+            "reflectance table"));
+    return tissue;
+}
+
+void Stage::set_tissue(const optics::HealingTissue& tissue)
+{
+    set_.loaded.tissue = tissue;
+    for (std::size_t i = 0; i < set_.wounds.size(); ++i)
+        set_.wounds[i].tissue = make_lut(set_, set_.loaded.wounds[i].healing);
+}
+
+std::shared_ptr<const std::vector<wound::WoundDay>> Stage::wounds_on(double day) const
+{
+    const auto known = std::ranges::find(known_days_, day, &KnownDay::day);
+    KnownDay found =
+        known != known_days_.end()
+            ? *known
+            : KnownDay{day, std::make_shared<const std::vector<wound::WoundDay>>(set_.loaded.wounds_on(day))};
+    if (known != known_days_.end())
+        known_days_.erase(known);
+    known_days_.push_front(found);
+    if (known_days_.size() > most_known_days)
+        known_days_.pop_back();
+    return found.wounds;
+}
+
+shared::View Stage::view(const head::Camera& camera, const passes::ViewportTile& tile) const
+{
+    return passes::make_view(camera, *set_.wounded, tile);
+}
+
+Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
+{
+    const scene::Scene& scene = set_.loaded.scene;
+    Frame frame{{}, wounds_on(request.day)};
+    std::vector<passes::FrameWound> wounds;
+    for (std::size_t i = 0; i < set_.wounds.size(); ++i) {
+        const DeviceWound& wound = set_.wounds[i];
+        wounds.push_back({set_.loaded.wounds[i].anchor, wound.maps, wound.tissue, (*frame.wounds)[i]});
+        graph.keep(wound.maps.color);
+        graph.keep(wound.maps.shape);
+    }
+    graph.keep(set_.wounded);
+    frame.images = passes::add_frame(graph, {.head = *set_.wounded,
+                                             .wounds = wounds,
+                                             .lights = set_.loaded.lights,
+                                             .camera = request.camera.value_or(set_.loaded.camera()),
+                                             .shading = request.shading.value_or(scene.shading),
+                                             .reflectance = scene.reflectance_model,
+                                             .tile = request.tile,
+                                             .samples = scene.samples,
+                                             .exposure_stops = float(scene.exposure_stops),
+                                             .every_frame = request.every_frame});
+    return frame;
+}
+
+graph::ImageId declare_split(graph::Graph& graph, const Stage& left, const FrameRequest& left_request,
+                             const Stage& right, const FrameRequest& right_request, double divider)
+{
+    const graph::ImageId first = left.declare(graph, left_request).images.picture;
+    graph.prefix("right ");
+    const graph::ImageId second = right.declare(graph, right_request).images.picture;
+    graph.prefix("");
+    return passes::add_split(graph, first, second, divider);
+}
+
+} // namespace stage

@@ -1,0 +1,225 @@
+#include "tools/head/bake_skin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace head_tool {
+namespace {
+
+constexpr float pore_spacing = 1.1f;   // mm
+constexpr float furrow_spacing = 1.7f; // mm
+constexpr float modulation = 0.03f;    // of the colour, root mean square
+constexpr float usual_shade =
+    0.4f; // of Detail, its mean on a cheek: pores must not darken the skin as a whole
+
+std::uint32_t hash(int x, int y, int z)
+{
+    std::uint32_t h = static_cast<std::uint32_t>(x) * 0x8da6b343u ^
+                      static_cast<std::uint32_t>(y) * 0xd8163841u ^
+                      static_cast<std::uint32_t>(z) * 0xcb1ab31fu;
+    h = (h ^ h >> 15) * 0x2c1b3c6du;
+    h = (h ^ h >> 12) * 0x297a2d39u;
+    return h ^ h >> 15;
+}
+
+/// Value noise, smooth, about -1 .. 1, features about one unit apart.
+float noise(glm::vec3 p)
+{
+    const glm::vec3 cell = glm::floor(p), f = p - cell, t = f * f * (3.0f - 2.0f * f);
+    const int x = static_cast<int>(cell.x), y = static_cast<int>(cell.y), z = static_cast<int>(cell.z);
+    const auto at = [&](int i, int j, int k) {
+        return static_cast<float>(hash(x + i, y + j, z + k) >> 8) / 8388608.0f - 1.0f;
+    };
+    const auto along_x = [&](int j, int k) { return glm::mix(at(0, j, k), at(1, j, k), t.x); };
+    return glm::mix(glm::mix(along_x(0, 0), along_x(1, 0), t.y), glm::mix(along_x(0, 1), along_x(1, 1), t.y),
+                    t.z);
+}
+
+/// Distances to the nearest and second nearest of points scattered one to a unit cell (Worley 1996).
+glm::vec2 cellular(glm::vec3 p)
+{
+    const glm::vec3 cell = glm::floor(p);
+    glm::vec2 nearest(9.0f); // squared
+    for (int k = -1; k <= 1; ++k)
+        for (int j = -1; j <= 1; ++j)
+            for (int i = -1; i <= 1; ++i) {
+                const glm::vec3 corner = cell + glm::vec3(i, j, k);
+                const std::uint32_t h =
+                    hash(static_cast<int>(corner.x), static_cast<int>(corner.y), static_cast<int>(corner.z));
+                const glm::vec3 point =
+                    corner + glm::vec3(h & 1023u, h >> 10 & 1023u, h >> 20 & 1023u) / 1024.0f;
+                const float d = glm::dot(point - p, point - p);
+                if (d < nearest.x)
+                    nearest = {d, nearest.x};
+                else if (d < nearest.y)
+                    nearest.y = d;
+            }
+    return glm::sqrt(nearest);
+}
+
+float bump(glm::vec3 p, glm::vec3 middle, float radius)
+{
+    return std::exp(-glm::dot(p - middle, p - middle) / (radius * radius));
+}
+
+float smooth_step(float low, float high, float x)
+{
+    const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
+    return t * t * (3 - 2 * t);
+}
+
+glm::vec3 cheek_of(const SkinPlaces& places)
+{
+    return places.nose_tip + glm::vec3(34, 2, -22);
+} // its mirror image, too
+
+/// How coarse the relief is at a place: strongest on nose and inner cheeks, fine on neck and scalp, almost
+/// none on the lips.
+struct Relief
+{
+    float pores, furrows, creases; // relative depths
+};
+
+Relief relief_at(glm::vec3 p, const SkinPlaces& places, float lip)
+{
+    const float nose = bump(p, places.nose_tip, 22);
+    const float cheeks = bump({std::abs(p.x), p.y, p.z}, cheek_of(places), 26);
+    const float chin = bump(p, places.mouth + glm::vec3(0, -28, -4), 22);
+    const float face =
+        smooth_step(-95, -45, p.z) * smooth_step(-120, -85, p.y) * (1 - smooth_step(55, 95, p.y));
+    const float forehead =
+        smooth_step(22, 36, p.y) * (1 - smooth_step(55, 75, p.y)) * smooth_step(-70, -30, p.z);
+    const float dry = 1 - lip;
+    return {dry * (0.15f + 0.35f * face + 0.8f * nose + 0.6f * cheeks + 0.4f * chin),
+            dry * (0.6f + 0.3f * face), dry * forehead};
+}
+
+/// What the relief does at one place: its height, and how much pores and furrows darken it.
+struct Detail
+{
+    float height; // mm
+    float shade;  // 0 .. 1
+    float blush;  // redness, about -1 .. 1
+};
+
+Detail detail_at(glm::vec3 p, const Relief& relief)
+{
+    // Scattered points would lie on straight cell borders in smooth skin; a gentle warp hides the lattice.
+    const glm::vec3 warp =
+        0.35f * glm::vec3(noise(p * 0.5f), noise(p * 0.5f + 31.0f), noise(p * 0.5f + 67.0f));
+    const float pit = 1 - smooth_step(0.12f, 0.5f, cellular((p + warp) / pore_spacing).x);
+    const glm::vec2 plates = cellular((p + warp) / furrow_spacing + 11.0f);
+    const float furrow = 1 - smooth_step(0.0f, 0.22f, plates.y - plates.x);
+    // Creases of the forehead run across: noise stretched sideways.
+    const float crease = noise({p.x * 0.02f, p.y * 0.22f + 0.8f * noise(p * 0.03f), p.z * 0.02f});
+    const float roll = noise(p * 0.35f) + 0.6f * noise(p * 0.8f + 5.0f);
+    const float height = -0.075f * relief.pores * pit - 0.04f * relief.furrows * furrow +
+                         0.03f * relief.furrows * roll + 0.2f * relief.creases * crease;
+    const float blush =
+        0.6f * noise(p * 0.12f) + 0.4f * noise(p * 0.33f + 9.0f) + 0.3f * noise(p * 0.9f + 3.0f);
+    return {height, std::min(1.0f, relief.pores * pit + 0.35f * relief.furrows * furrow), blush};
+}
+
+/// Where the paint is lip: redder, seen against green, than skin ever is, near the mouth.
+float lip_at(const cv::Vec3b& paint, glm::vec3 p, const SkinPlaces& places)
+{
+    const float red = static_cast<float>(paint[0]) / std::max(1.0f, static_cast<float>(paint[1]));
+    return smooth_step(1.28f, 1.5f, red) * bump(p, places.mouth, 30);
+}
+
+glm::vec3 place(const cv::Mat3f& positions, int y, int x)
+{
+    const cv::Vec3f& p =
+        positions(std::clamp(y, 0, positions.rows - 1), std::clamp(x, 0, positions.cols - 1));
+    return {p[0], p[1], p[2]};
+}
+
+/// Shifts the whole painting so that the cheeks have the mean colour measured on people.
+cv::Mat3b match_cheeks(const cv::Mat3b& painted, const SkinPlaces& places)
+{
+    // Xiao et al. 2017, Skin Research and Technology 23: Caucasians, cheek, spectrophotometer, CIELAB.
+    const cv::Scalar measured(59.6, 11.8, 14.6);
+    constexpr float radius = 15; // mm
+    cv::Mat3f lab;
+    painted.convertTo(lab, CV_32F, 1.0 / 255);
+    cv::cvtColor(lab, lab, cv::COLOR_RGB2Lab);
+    cv::Mat1b cheeks(painted.size());
+    for (int y = 0; y < painted.rows; ++y)
+        for (int x = 0; x < painted.cols; ++x) {
+            const glm::vec3 p = place(places.position, y, x);
+            cheeks(y, x) = glm::distance({std::abs(p.x), p.y, p.z}, cheek_of(places)) < radius ? 255 : 0;
+        }
+    if (cv::countNonZero(cheeks) == 0)
+        return painted;
+    lab += measured - cv::mean(lab, cheeks);
+    cv::cvtColor(lab, lab, cv::COLOR_Lab2RGB);
+    cv::Mat3b matched;
+    lab.convertTo(matched, CV_8U, 255);
+    return matched;
+}
+
+/// Slopes of the height field, with the size of each texel on the head taken into account.
+cv::Mat3b normals_of(const cv::Mat1f& height, const cv::Mat3f& positions)
+{
+    cv::Mat3b normals(height.size());
+    cv::parallel_for_(cv::Range(0, height.rows), [&](const cv::Range& rows) {
+        for (int y = rows.start; y < rows.end; ++y)
+            for (int x = 0; x < height.cols; ++x) {
+                const int left = std::max(x - 1, 0), right = std::min(x + 1, height.cols - 1);
+                const int above = std::max(y - 1, 0), below = std::min(y + 1, height.rows - 1);
+                constexpr float least = 0.1f; // mm over two texels: charts do not shrink further
+                const float run_u =
+                    std::max(least, glm::distance(place(positions, y, left), place(positions, y, right)));
+                const float run_v =
+                    std::max(least, glm::distance(place(positions, above, x), place(positions, below, x)));
+                // y points up, against v.
+                const glm::vec3 n =
+                    glm::normalize(glm::vec3((height(y, left) - height(y, right)) / run_u,
+                                             (height(below, x) - height(above, x)) / run_v, 1.0f));
+                for (int c = 0; c < 3; ++c)
+                    normals(y, x)[c] = cv::saturate_cast<uchar>(127.5f + 127.5f * n[c]);
+            }
+    });
+    return normals;
+}
+
+} // namespace
+
+SkinPictures detail_skin(const cv::Mat3b& painting, const SkinPlaces& places)
+{
+    const cv::Mat3b painted = match_cheeks(painting, places);
+    // Small dark marks of the painting (stubble, pores) are pits, too.
+    cv::Mat1b gray;
+    cv::cvtColor(painted, gray, cv::COLOR_RGB2GRAY);
+    cv::Mat1f marks, around;
+    gray.convertTo(marks, CV_32F);
+    cv::GaussianBlur(marks, around, {}, 4.0);
+    marks -= around;
+
+    cv::Mat1f height(painted.size());
+    SkinPictures pictures{cv::Mat4b(painted.size()), {}};
+    cv::parallel_for_(cv::Range(0, painted.rows), [&](const cv::Range& rows) {
+        for (int y = rows.start; y < rows.end; ++y)
+            for (int x = 0; x < painted.cols; ++x) {
+                const glm::vec3 p = place(places.position, y, x);
+                const cv::Vec3b& paint = painted(y, x);
+                const float lip = lip_at(paint, p, places);
+                const Detail detail = detail_at(p, relief_at(p, places, lip));
+                height(y, x) = detail.height + 0.004f * std::clamp(marks(y, x), -20.0f, 10.0f);
+                const float light = 1 + modulation * (2 * (usual_shade - detail.shade) + 0.3f * detail.blush);
+                const glm::vec3 tint =
+                    light * glm::vec3(1, 1 - modulation * detail.blush, 1 - 0.8f * modulation * detail.blush);
+                cv::Vec4b& color = pictures.color(y, x);
+                for (int c = 0; c < 3; ++c)
+                    color[c] = cv::saturate_cast<uchar>(static_cast<float>(paint[c]) * tint[c]);
+                color[3] = 255;
+            }
+    });
+    pictures.normal = normals_of(height, places.position);
+    return pictures;
+}
+
+} // namespace head_tool

@@ -1,0 +1,59 @@
+// Measures the ladder of warps (wound/warp.hpp): error against the composed map, area, folds and cost of each
+// model at each ratio, over shapes that try it. docs/warp.md is made from it.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wound/contour.hpp"
+#include "wound/warp/warp.hpp"
+
+namespace lab {
+
+struct LadderShape
+{
+    std::string name;
+    wound::Polyline border; // patch coordinates
+    cv::Point2d centroid;
+};
+
+/// Circle, star, ragged, crescent, a 20 : 1 cut, a disk cut in half by the photograph's edge, and a circle
+/// near the patch's frame.
+std::vector<LadderShape> ladder_shapes();
+
+struct LadderRow
+{
+    std::string shape;
+    wound::WarpModel model = wound::WarpModel::grid;
+    double ratio = 1;
+    double error_texels = 0;      // largest distance from the composed map's day-0 point, texels of 512 x 512
+    double near_error_texels = 0; // the same within twice today's wound's reach from its centroid
+    double area_error = 0;        // area of today's wound / (ratio x initial area) - 1
+    int folded_texels = 0;        // of 512 x 512
+    double least_jacobian = 0;
+    double make_ms = 0;          // once per day; CPU time, as is
+    double ms_per_megatexel = 0; // evaluation in double precision, one thread
+};
+
+inline constexpr double kLadderRatios[] = {1.2, .9, .6, .4, .2, .1, .05, .01};
+inline constexpr wound::WarpModel kWarpModels[] = {wound::WarpModel::radial, wound::WarpModel::grid,
+                                                   wound::WarpModel::dense, wound::WarpModel::composed};
+inline constexpr double kErrorLimit = .25; // texels, of the default model
+
+/// A row for each ratio and model.
+std::vector<LadderRow> measure_ladder(const LadderShape& shape);
+
+/// Of the models that stay within kErrorLimit and do not fold in any row, the one whose costliest row is the
+/// cheapest.
+std::optional<wound::WarpModel> cheapest_exact(const std::vector<LadderRow>& rows);
+
+/// A Markdown table: each model's worst over all rows.
+std::string ladder_summary(const std::vector<LadderRow>& rows);
+/// Markdown tables, model and ratio down, shapes across: error, area, folds, cost relative to the grid's.
+std::string ladder_tables(const std::vector<LadderRow>& rows);
+/// Every row, columns named and in the units of LadderRow.
+std::string ladder_csv(const std::vector<LadderRow>& rows);
+/// RGB. A panel for each shape: error against ratio, both logarithmic, with kErrorLimit and the folds.
+cv::Mat3b draw_ladder(const std::vector<LadderRow>& rows);
+
+} // namespace lab

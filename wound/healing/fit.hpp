@@ -1,0 +1,80 @@
+// Fits healing curves to measured areas: H3, and its special cases Weibull (theta = 0) and exponential (theta
+// = 0, gamma = 1). Bounded Levenberg-Marquardt with analytic Jacobian from many fixed starts, so a fit is
+// deterministic.
+#pragma once
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "wound/healing/area_table.hpp"
+#include "wound/healing/healing.hpp"
+
+namespace wound {
+
+enum class CurveModel
+{
+    exponential,
+    weibull,
+    h3
+};
+inline constexpr std::array kCurveModels{CurveModel::exponential, CurveModel::weibull, CurveModel::h3};
+const char* name_of(CurveModel model);
+
+struct FitOptions
+{
+    bool robust = false; // Huber's loss: one bad measurement does not pull the curve
+    MeanOf mean = MeanOf::areas;
+};
+
+struct CurveFit
+{
+    CurveModel model = CurveModel::exponential;
+    H3 curve;
+    std::array<double, 3> standard_errors{}; // of delta, gamma, theta; NaN for one that is fixed, at its
+                                             // bound or not identified
+    double residual = 0;                     // weighted sum of squares
+    double rmse = 0;                         // of the ratio
+    double aic = 0;                          // n ln(residual / n) + 2 (parameters + 1)
+};
+
+struct SeriesFit
+{
+    AreaSeries series;
+    std::vector<CurveFit>
+        models; // in order of parameters; those with more parameters than measured days are left out
+    std::size_t preferred = 0; // index of the least AIC
+    const CurveFit& best() const { return models[preferred]; }
+};
+
+/// Throws base::InputError (`where` names the table) for a series of fewer than two days.
+SeriesFit fit_series(const AreaSeries& series, std::string_view where, const FitOptions& options = {});
+
+/// Every series measured on two days or more and, when there are several, the means of their groups and,
+/// last, of all.
+std::vector<SeriesFit> fit_table(const std::vector<AreaSeries>& table, std::string_view where,
+                                 const FitOptions& options = {});
+
+/// A table's mean (or its only wound), or the series named. Throws base::InputError when there is no
+/// series of that name.
+SeriesFit fit_from_areas(const std::filesystem::path& table, std::string_view series = {});
+/// Its preferred curve: what a scene's "areas" file stands for.
+H3 curve_from_areas(const std::filesystem::path& table, std::string_view series = {});
+
+/// The largest ratio of the curve, infinite for one that never stops growing, and the day on which it is
+/// reached.
+struct Peak
+{
+    double ratio = 1, day = 0;
+};
+Peak largest_ratio(const H3& curve);
+
+/// fit.json: {"series": [{"name", "n", "models": {...}, "preferred", "half_time_days", ...}]}; what is
+/// unknown or infinite is null.
+nlohmann::json fit_to_json(const std::vector<SeriesFit>& fits);
+
+/// Measurements with the three curves above their residuals, RGB, 960 x 640.
+cv::Mat3b draw_fit(const SeriesFit& fit);
+
+} // namespace wound

@@ -1,0 +1,84 @@
+#include "wound/healing/healing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+#include "base/input_error.hpp"
+
+namespace wound {
+
+namespace {
+
+void require(double value, double low, double high, std::string_view where, std::string_view field)
+{
+    if (!(value >= low && value <= high)) // also refuses NaN
+        throw base::InputError(fmt::format("{}: {}", where, field), fmt::format("{} is out of range", value),
+                               fmt::format("give a number from {} to {}", low, high));
+}
+
+} // namespace
+
+void validate(const Healing& healing, std::string_view where)
+{
+    require(healing.curve.delta, 0, 10, where, "healing.delta");
+    require(healing.curve.gamma, .5, 4, where, "healing.gamma");
+    require(healing.curve.theta, -1, 1, where, "healing.theta");
+    require(healing.curve.asymptote, 0, .99, where, "healing.asymptote");
+    require(healing.residual_border, 0, 1, where, "healing.residual_border");
+}
+
+double unhealed_ratio(const H3& curve, double day)
+{
+    const double t = std::max(day, 0.);
+    if (t == 0)
+        return 1;
+    // delta = 0 with t^gamma = infinity would be NaN. One exponential of the summed exponent, rather than
+    // exp(-asinh) by its closed form times another, so that neither factor under- or overflows alone.
+    const double power = curve.delta == 0 ? 0 : curve.delta * std::pow(t, curve.gamma);
+    const double healing = std::exp(-(power + std::asinh(curve.theta * t)));
+    return curve.asymptote + (1 - curve.asymptote) * healing;
+}
+
+HealingState healing_at(const Healing& healing, double day)
+{
+    HealingState state;
+    state.day = day;
+    state.unhealed_ratio = std::clamp(unhealed_ratio(healing.curve, day), 0., kLargestRatio);
+    const double r = state.unhealed_ratio;
+    const double residual = healing.residual_border;
+    // While the wound still grows, its border is the bed's: the ring of new epithelium starts at its largest
+    // extent.
+    const bool ring = healing.model == HealingModel::face && r < 1;
+    state.border_ratio = ring ? residual + (1 - residual) * r : r;
+    state.recovery_ratio = std::clamp(1 - r, 0., 1.);
+    state.depth_scale = std::sqrt(std::min(r, 1.));
+    return state;
+}
+
+double day_below(const H3& curve, double level)
+{
+    constexpr double kLastDay = 1e9;
+    if (!(unhealed_ratio(curve, kLastDay) < level))
+        return std::numeric_limits<double>::infinity();
+    // With theta < 0 the ratio may cross the level more than once (at most a fall, a rise and a fall), so the
+    // last crossing is looked for from the far side, in logarithmic steps, then bisected.
+    double above = 0;
+    double below = kLastDay;
+    constexpr double kStep = 1.01;
+    for (double day = kLastDay; day > 1e-9; day /= kStep) {
+        if (unhealed_ratio(curve, day) >= level) {
+            above = day;
+            break;
+        }
+        below = day;
+    }
+    for (int i = 0; i < 100 && above < below; ++i) {
+        const double middle = .5 * (above + below);
+        (unhealed_ratio(curve, middle) >= level ? above : below) = middle;
+    }
+    return below;
+}
+
+} // namespace wound

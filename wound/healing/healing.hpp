@@ -1,0 +1,76 @@
+// How large a wound is on a given day: the hyperbolic model H3 and the two ways in which a wound closes.
+//
+//   Tabatabai, Williams, Bursac 2005; Tabatabai, Eby, Singh 2011, "Hyperbolic modeling of wound healing":
+//   dP/dt = (M - P)(delta gamma t^(gamma-1) + theta / sqrt(1 + theta^2 t^2)), with P(0) = 1 the size ratio r
+//   below.
+//
+// r > 1 is a wound that grows first (retraction, oedema): allowed, and bounded by kLargestRatio where shapes
+// are made from it.
+#pragma once
+#include <string_view>
+
+namespace wound {
+
+/// r(t) = m + (1 - m) exp(-delta t^gamma - asinh(theta t)). The defaults are a human facial wound left to
+/// heal by itself: half closed after 8.45 days (Yang et al. 2016, PLoS ONE 11(9):e0163092), 1 % open on
+/// day 30.
+struct H3
+{
+    double delta = .02822; // day^-gamma, 0..10
+    double gamma = 1.5;    // 0.5..4
+    double theta = 0;      // day^-1, -1..1
+    double asymptote = 0;  // m, the ratio never healed, 0 <= m < 1
+    bool operator==(const H3&) const = default;
+};
+
+enum class HealingModel
+{
+    contraction, // the paper's, and a mouse's: the border itself closes
+    face // a person's: the border shrinks to a residual, the open bed closes inside it by new epithelium
+};
+
+struct Healing
+{
+    H3 curve; // of the open bed's area
+    HealingModel model = HealingModel::face;
+    double residual_border = .43; // area inside the border once closed / initial; face only. Contraction
+                                  // closes 57 % of a facial wound, at the least
+    bool operator==(const Healing&) const = default;
+};
+
+/// One day. r is the UNhealed ratio of eq. (1), 1 -> 0; recovery is the r of eq. (4), 0 -> 1.
+struct HealingState
+{
+    double day = 0;
+    double unhealed_ratio = 1; // area of the open bed / initial area, 0..kLargestRatio
+    double border_ratio =
+        1; // area inside the outer border / initial area; equals unhealed_ratio for contraction
+    double recovery_ratio = 0; // 1 - unhealed_ratio, clamped to 0..1
+    double depth_scale = 1;    // sqrt(unhealed_ratio), at most 1
+};
+
+inline constexpr double kLargestRatio = 1.4; // growth beyond it is drawn as this
+inline constexpr double kClosedRatio = .01;  // below it a wound counts as closed
+
+/// Throws base::InputError naming the field, for instance "scene.json: healing.gamma", unless every value
+/// is in its range.
+void validate(const Healing& healing, std::string_view where);
+
+/// Days before 0 count as 0. For curves that pass validate() exact to 1e-12 relative down to the smallest
+/// normal double, and never NaN for a finite day.
+double unhealed_ratio(const H3& curve, double day);
+
+HealingState healing_at(const Healing& healing, double day);
+
+/// The day after which the ratio stays below `level` (0..1); infinity when it never does.
+double day_below(const H3& curve, double level);
+inline double half_time(const H3& curve)
+{
+    return day_below(curve, .5);
+}
+inline double closure_day(const H3& curve)
+{
+    return day_below(curve, kClosedRatio);
+}
+
+} // namespace wound

@@ -1,0 +1,115 @@
+// How much light layered tissue gives back: the ladder of models, from the printed equations to a photon
+// walk, behind one interface. All take layers at one wavelength; equations are numbered as in docs/optics.md.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "wound/optics/tissue.hpp"
+
+namespace optics {
+
+enum class ReflectanceModel
+{
+    Published,      // eqs. (2), (3) exactly as printed; leaves 0..1 outside their domain
+    Clamped,        // the same with each thickness limited to the domain
+    Exponential,    // the same with exponentials for the linear attenuation
+    TwoStreamPaper, // Kubelka-Munk layers with the paper's S = P sigma_s', K = sigma_a; adding
+    TwoStream,  // Kubelka-Munk layers with Eddington's S = 3/4 sigma_s' - 1/4 sigma_a, K = 2 sigma_a; adding
+    Calibrated, // Kubelka-Munk layers with S and K fitted to the photon walk; adding
+    AddingDoubling, // radiative transfer with N angles (adding_doubling.hpp)
+    MonteCarlo,     // photon walk (monte_carlo.hpp)
+};
+
+enum class Incidence
+{
+    Diffuse,
+    Normal, // analytic levels: the light is diffuse once inside
+};
+
+enum class DiffuseFresnel
+{
+    Exact,
+    Polynomial,
+};
+
+/// Where adding-doubling's angles lie: Gauss-Legendre nodes of each panel, in the cosine of the thinnest
+/// medium that carries the light there, in which Fresnel's formulas are smooth; or in that of the densest, as
+/// Prahl 1995 has them, which converges slowly at the critical angle and is how his tables were made.
+enum class Quadrature
+{
+    Smooth,
+    Slab,
+};
+
+struct ReflectanceOptions
+{
+    Incidence incidence = Incidence::Diffuse;
+    DiffuseFresnel fresnel = DiffuseFresnel::Exact; // analytic levels
+    int angles = 8;                                 // adding-doubling, per panel
+    Quadrature quadrature = Quadrature::Smooth;     // adding-doubling
+    /// calibrated: S = c0 s^2 / (s + c1 a), K = a (c2 - c3 a / (a + s)) with a = sigma_a, s = sigma_s'. What
+    /// `cicatrix bake --calibrate` found; shaders/lib/reflectance.glsl has the same. All >= 0, c2 >= c3.
+    std::array<double, 4> calibration{.6433, 2.2131, 1.9179, .7631};
+    std::uint64_t photons = 1'000'000, seed = 1; // Monte Carlo
+    unsigned threads = 0;                        // Monte Carlo; 0: one per core
+    std::function<void(double)> progress = {};   // the finished share, by one thread at a time
+};
+
+struct Response
+{
+    double r = 0;                  // all reflected light
+    double r_without_specular = 0; // less what the first surface alone reflects
+    double t = 0;                  // into the medium below
+    std::vector<double> absorbed =
+        {};                    // per layer; first three levels: whatever they neither return nor pass on
+    double standard_error = 0; // of r; 0 where nothing is random
+};
+
+/// All levels, from the crudest to the reference.
+std::span<const ReflectanceModel> all_reflectance_models();
+/// Name on the command line and in JSON: "published", "clamped", "exponential", "two-stream-paper",
+/// "two-stream", ...
+std::string_view name(ReflectanceModel level);
+/// Throws base::InputError, naming the known ones.
+ReflectanceModel reflectance_model_named(std::string_view name);
+
+/// For TwoStreamPaper, TwoStream and Calibrated, for sigma in 0..1e6, thickness in 0..1e9 or infinite, n
+/// in 1..3, g in -1..1: 0 <= r, t; r + t <= 1 (rounding: 1e-14); r + t = 1 without absorption, within 1e-12;
+/// a layer split in two changes nothing. Clamped and Exponential keep the bounds only, Published keeps
+/// nothing. AddingDoubling keeps
+/// all of it: r + t <= 1 within 1e-11, = 1 without absorption within 1e-12, a split layer within 1e-9.
+Response reflectance(const Stack& stack, ReflectanceModel level, const ReflectanceOptions& options = {});
+
+/// What the first surface alone reflects.
+double specular_reflectance(const Stack& stack, const ReflectanceOptions& options = {});
+
+/// r_without_specular of every channel.
+std::vector<double> diffuse_color(const SkinLayers& tissue, ReflectanceModel level,
+                                  const ReflectanceOptions& options = {});
+
+/// A layer thicker than the printed equations allow: there T(d) < 0.
+struct OutsideDomain
+{
+    std::size_t layer, channel;
+    double thickness_mm, limit_mm; // limit: 1 / (sigma_a + P sigma_s')
+};
+std::vector<OutsideDomain> outside_domain(const SkinLayers& tissue);
+
+/// Reflectance and transmittance of a layer or a boundary for diffuse light from above (top) and below
+/// (bottom).
+struct Element
+{
+    double r_top = 0, r_bottom = 0, t_down = 1, t_up = 1;
+};
+
+/// Kubelka-Munk slab without boundaries, for back-scattering S and absorption K per mm; continuous down to S
+/// = K = 0 and up to an infinite thickness.
+Element slab(double S, double K, double thickness_mm);
+Element over(const Element& upper, const Element& lower); // adding
+
+} // namespace optics

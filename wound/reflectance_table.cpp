@@ -1,0 +1,222 @@
+#include "wound/reflectance_table.hpp"
+
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <opencv2/imgproc.hpp>
+#include <thread>
+#include <unistd.h>
+
+#include "base/file.hpp"
+#include "base/hash.hpp"
+#include "base/progress.hpp"
+#include "wound/optics/chromophores.hpp"
+
+namespace wound {
+
+namespace {
+
+constexpr std::uint64_t table_version = 2; // raise when a model's result or the mapping changes
+
+// FNV-1a over the bit patterns of everything a table depends on.
+class Key
+{
+  public:
+    void add(std::uint64_t bits)
+    {
+        for (int byte = 0; byte < 8; ++byte) {
+            hash_ ^= (bits >> (8 * byte)) & 0xFF;
+            hash_ *= 0x100000001B3u;
+        }
+    }
+    void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+    void add(const optics::Layer& layer)
+    {
+        for (double value : {layer.g, layer.n, layer.thickness_mm})
+            add(value);
+        for (const auto* values : {&layer.sigma_a, &layer.sigma_s_reduced}) {
+            add(static_cast<std::uint64_t>(values->size()));
+            for (double value : *values)
+                add(value);
+        }
+    }
+    std::uint64_t value() const { return hash_; }
+
+  private:
+    std::uint64_t hash_ = 0xCBF29CE484222325u;
+};
+
+std::uint64_t table_key(std::span<const optics::TissueDay> rows, std::uint32_t width,
+                        optics::ReflectanceModel model, const optics::ReflectanceOptions& options)
+{
+    Key key;
+    for (std::uint64_t bits :
+         {table_version, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(model),
+          static_cast<std::uint64_t>(options.incidence), static_cast<std::uint64_t>(options.fresnel),
+          static_cast<std::uint64_t>(options.angles), static_cast<std::uint64_t>(options.quadrature),
+          options.photons, options.seed})
+        key.add(bits);
+    for (const optics::TissueDay& day : rows) {
+        for (double value : {day.missing_ratio, day.regrown_ratio, day.intact.n_above, day.intact.n_below})
+            key.add(value);
+        key.add(day.cover);
+        key.add(day.regrown);
+        key.add(static_cast<std::uint64_t>(day.intact.layers.size()));
+        for (const optics::Layer& layer : day.intact.layers)
+            key.add(layer);
+    }
+    return key.value();
+}
+
+bool finite(const cv::Mat3f& table)
+{
+    for (const cv::Vec3f& texel : table)
+        for (int c = 0; c < 3; ++c)
+            if (!(texel[c] >= 0 && std::isfinite(texel[c])))
+                return false;
+    return true;
+}
+
+bool read_table(const std::filesystem::path& path, cv::Mat3f& table)
+{
+    std::ifstream file(path, std::ios::binary);
+    const auto bytes = static_cast<std::streamsize>(table.total() * table.elemSize());
+    return file && file.read(reinterpret_cast<char*>(table.data), bytes) &&
+           file.peek() == std::ifstream::traits_type::eof() && finite(table);
+}
+
+// Written under another name first, so that a reader never meets half a table.
+void write_table(const std::filesystem::path& path, const cv::Mat3f& table)
+{
+    std::error_code error;
+    std::filesystem::create_directories(path.parent_path(), error);
+    const std::filesystem::path temporary = fmt::format("{}.{}", path.string(), getpid());
+    std::ofstream file(temporary, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(table.data),
+               static_cast<std::streamsize>(table.total() * table.elemSize()));
+    file.close();
+    if (file)
+        std::filesystem::rename(temporary, path, error);
+    if (!file || error)
+        std::filesystem::remove(temporary, error);
+}
+
+} // namespace
+
+double lut_row_day(std::size_t row, std::size_t rows, double last_day)
+{
+    return shared::lut_value(static_cast<float>(row), static_cast<float>(rows), static_cast<float>(last_day));
+}
+
+LutRows lut_rows(const optics::HealingTissue& tissue, const Healing& healing, std::size_t rows,
+                 double last_day)
+{
+    LutRows result;
+    const double closed = closure_day(healing.curve);
+    for (std::size_t row = 0; row < rows; ++row) {
+        const double day = lut_row_day(row, rows, last_day);
+        result.days.push_back(optics::open_bed(tissue, day, healing_at(healing, day).depth_scale));
+    }
+    for (std::size_t row = 0; row < rows; ++row)
+        result.days.push_back(optics::covered_bed(tissue, lut_row_day(row, rows, last_day), closed));
+    result.axes = {static_cast<float>(deepest_injury_mm(result.days.front().intact)),
+                   static_cast<float>(last_day)};
+    return result;
+}
+
+optics::TissueDay tissue_on(const optics::HealingTissue& tissue, shared::uint part, double day)
+{
+    const Healing healing;
+    return part == shared::LUT_OPEN ? optics::open_bed(tissue, day, healing_at(healing, day).depth_scale)
+                                    : optics::covered_bed(tissue, day, closure_day(healing.curve));
+}
+
+cv::Mat3f bake_reflectance_table(std::span<const optics::TissueDay> rows, std::uint32_t width,
+                                 optics::ReflectanceModel model, const optics::ReflectanceOptions& options)
+{
+    const auto columns = static_cast<int>(width), count = static_cast<int>(rows.size()) * columns;
+    cv::Mat3f table(static_cast<int>(rows.size()), columns);
+    const auto deepest = static_cast<float>(deepest_injury_mm(rows.front().intact));
+    std::atomic<int> next{0};
+    const std::thread::id caller = std::this_thread::get_id();
+    // Whoever stops, by progress that threw, stops all.
+    struct Stop
+    {
+        std::atomic<int>& next;
+        int count;
+        ~Stop() { next = count; }
+    };
+    const auto work = [&] {
+        const Stop stop{next, count};
+        optics::ReflectanceOptions alone = options;
+        alone.threads = 1;
+        alone.progress = {};
+        for (int i; (i = next++) < count;) {
+            const int y = i / columns, x = i % columns;
+            const float injury =
+                shared::lut_value(static_cast<float>(x), static_cast<float>(columns), deepest);
+            const optics::TissueDay& day = rows[static_cast<std::size_t>(y)];
+            const base::Color color = optics::tissue_color(optics::layers_at(day, injury), model, alone);
+            for (int c = 0; c < 3; ++c) // as displayable() in shaders/lib/reflectance.glsl
+                table(y, x)[c] = color[c] > 0 ? static_cast<float>(std::min(color[c], 65504.0)) : 0.0f;
+            if (options.progress && std::this_thread::get_id() == caller)
+                options.progress(static_cast<double>(i + 1) / count);
+        }
+    };
+    std::vector<std::jthread> threads;
+    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i)
+        threads.emplace_back(work);
+    work();
+    threads.clear(); // joins
+    return table;
+}
+
+cv::Mat3f cached_reflectance_table(const std::filesystem::path& folder,
+                                   std::span<const optics::TissueDay> rows, std::uint32_t width,
+                                   optics::ReflectanceModel model, const optics::ReflectanceOptions& options)
+{
+    const std::filesystem::path path =
+        folder / fmt::format("reflectance-{:016x}-{}x{}.rgb32f", table_key(rows, width, model, options),
+                             width, rows.size());
+    cv::Mat3f table(static_cast<int>(rows.size()), static_cast<int>(width));
+    if (read_table(path, table))
+        return table;
+    table = bake_reflectance_table(rows, width, model, options);
+    write_table(path, table);
+    return table;
+}
+
+cv::Mat3f kept_table(const LutRows& rows, std::uint32_t width, optics::ReflectanceModel level,
+                     optics::ReflectanceOptions options)
+{
+    base::Progress progress;
+    constexpr std::size_t steps = 100;
+    std::size_t done = 0;
+    progress.expect(steps);
+    options.progress = [&](double share) {
+        for (; static_cast<double>(done) < share * steps; ++done)
+            progress.step();
+        progress.show(fmt::format("reflectance table, {}", optics::name(level)));
+    };
+    return cached_reflectance_table(base::cache_folder(), rows.days, width, level, options);
+}
+
+base::Color sample_table(const cv::Mat3f& table, const shared::LutAxes& axes, shared::uint part,
+                         double injury_mm, double day)
+{
+    const shared::vec2 size(static_cast<float>(table.cols), static_cast<float>(table.rows));
+    const shared::vec2 uv = lut_uv(axes, part, static_cast<float>(injury_mm), static_cast<float>(day), size);
+    const double x = uv.x * size.x - .5, y = uv.y * size.y - .5;
+    const int x0 = std::clamp(static_cast<int>(std::floor(x)), 0, table.cols - 1),
+              x1 = std::min(x0 + 1, table.cols - 1);
+    const int y0 = std::clamp(static_cast<int>(std::floor(y)), 0, table.rows - 1),
+              y1 = std::min(y0 + 1, table.rows - 1);
+    const double fx = x - x0, fy = y - y0;
+    const base::Color upper = (1 - fx) * base::Color(table(y0, x0)) + fx * base::Color(table(y0, x1));
+    const base::Color lower = (1 - fx) * base::Color(table(y1, x0)) + fx * base::Color(table(y1, x1));
+    return (1 - fy) * upper + fy * lower;
+}
+
+} // namespace wound

@@ -1,0 +1,42 @@
+// A wound made by our own code, for when no photograph is given: a picture such as a camera would take of a
+// fresh facial wound and the skin around it, and the mask of its open bed.
+//
+// Lengths are millimetres on the skin; the picture spans `synthetic_width_mm` of it.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wound/patch.hpp"
+
+namespace wound {
+
+enum class WoundShape
+{
+    abrasion,   // ragged oval, about 27 x 19 mm: cheek
+    laceration, // gaping cut, about 34 x 7 mm: above the eyebrow
+    avulsion    // several lobes and tears, about 21 mm: chin
+};
+
+/// The shapes' names, in their order: "abrasion", ...
+const std::vector<std::string>& shape_names();
+/// The shape of that name, which must be one of them.
+WoundShape shape_named(std::string_view name);
+
+struct SyntheticWound
+{
+    WoundShape shape = WoundShape::abrasion;
+    std::uint32_t seed = 1;
+    float clot = .2f;              // fraction of the open bed, 0..1
+    float fibrin = .22f;           // fraction of the open bed, 0..1
+    cv::Vec3b skin{212, 164, 140}; // sRGB, the healthy skin's mean
+    int size = 512;                // px, width and height, 64 or more
+};
+
+inline constexpr double synthetic_width_mm = 50;
+
+/// The same parameters give the same picture, bit by bit.
+Photograph synthesize(const SyntheticWound& wound);
+
+} // namespace wound
