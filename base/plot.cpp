@@ -9,9 +9,9 @@ namespace base {
 
 namespace {
 
-constexpr int kShift = 4; // sixteenths of a pixel
-constexpr double kFont = .45;
-const cv::Scalar kAxis(90, 90, 90), kGrid(228, 228, 228);
+constexpr int subpixel_bits = 4; // sixteenths of a pixel
+constexpr double text_font = .45;
+const cv::Scalar axis_color(90, 90, 90), grid(228, 228, 228);
 
 /// 1, 2 or 5 times a power of ten, so that about five ticks fit.
 double tick_step(Range range)
@@ -64,7 +64,7 @@ void draw_text(const cv::Mat3b& picture, const std::string& text, cv::Point lowe
                double scale)
 {
     cv::Mat3b target = picture;
-    cv::putText(target, text, lower_left, cv::FONT_HERSHEY_SIMPLEX, kFont * scale, color, 1, cv::LINE_AA);
+    cv::putText(target, text, lower_left, cv::FONT_HERSHEY_SIMPLEX, text_font * scale, color, 1, cv::LINE_AA);
 }
 
 Plot::Plot(const cv::Mat3b& picture, cv::Rect area, Range x, Range y, const std::string& title,
@@ -73,45 +73,45 @@ Plot::Plot(const cv::Mat3b& picture, cv::Rect area, Range x, Range y, const std:
       y_(widened(y))
 {
     draw_text(picture_, title, {area.x + 8, area.y + 16});
-    draw_text(picture_, x_label, {inner_.x + inner_.width / 2 - 20, area.y + area.height - 10}, kAxis);
-    const auto pixel = [this](cv::Point2d p) { return place(p) / (1 << kShift); };
+    draw_text(picture_, x_label, {inner_.x + inner_.width / 2 - 20, area.y + area.height - 10}, axis_color);
+    const auto pixel = [this](cv::Point2d p) { return place(p) / (1 << subpixel_bits); };
     for (double tick : ticks(x_)) {
         const int column = pixel({tick, y_.low}).x;
-        cv::line(picture_, {column, inner_.y}, {column, inner_.br().y}, kGrid);
-        draw_text(picture_, fmt::format("{:g}", tick), {column - 8, inner_.br().y + 18}, kAxis);
+        cv::line(picture_, {column, inner_.y}, {column, inner_.br().y}, grid);
+        draw_text(picture_, fmt::format("{:g}", tick), {column - 8, inner_.br().y + 18}, axis_color);
     }
     for (double tick : ticks(y_)) {
         const int row = pixel({x_.low, tick}).y;
-        cv::line(picture_, {inner_.x, row}, {inner_.br().x, row}, kGrid);
-        draw_text(picture_, fmt::format("{:.4g}", tick), {inner_.x - 46, row + 5}, kAxis);
+        cv::line(picture_, {inner_.x, row}, {inner_.br().x, row}, grid);
+        draw_text(picture_, fmt::format("{:.4g}", tick), {inner_.x - 46, row + 5}, axis_color);
     }
-    cv::rectangle(picture_, inner_, kAxis);
+    cv::rectangle(picture_, inner_, axis_color);
 }
 
 cv::Point Plot::place(cv::Point2d p) const
 {
     const double x = inner_.x + std::clamp(share(x_, p.x), -.02, 1.02) * inner_.width;
     const double y = inner_.br().y - std::clamp(share(y_, p.y), -.02, 1.02) * inner_.height;
-    return {cvRound(x * (1 << kShift)), cvRound(y * (1 << kShift))};
+    return {cvRound(x * (1 << subpixel_bits)), cvRound(y * (1 << subpixel_bits))};
 }
 
 void Plot::line(const std::vector<cv::Point2d>& points, cv::Scalar color, int thickness)
 {
     for (std::size_t i = 1; i < points.size(); ++i)
-        cv::line(picture_, place(points[i - 1]), place(points[i]), color, thickness, cv::LINE_AA, kShift);
+        cv::line(picture_, place(points[i - 1]), place(points[i]), color, thickness, cv::LINE_AA, subpixel_bits);
 }
 
 void Plot::points(const std::vector<cv::Point2d>& points, cv::Scalar color, int radius)
 {
     for (cv::Point2d p : points)
-        cv::circle(picture_, place(p), radius << kShift, color, cv::FILLED, cv::LINE_AA, kShift);
+        cv::circle(picture_, place(p), radius << subpixel_bits, color, cv::FILLED, cv::LINE_AA, subpixel_bits);
 }
 
 void Plot::legend(const std::string& text, cv::Scalar color)
 {
     int baseline = 0;
-    const int width = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kFont, 1, &baseline).width;
-    const cv::Point at(inner_.br().x - width - 12, inner_.y + 20 + legend_lines_++ * (kTextHeight + 6));
+    const int width = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, text_font, 1, &baseline).width;
+    const cv::Point at(inner_.br().x - width - 12, inner_.y + 20 + legend_lines_++ * (text_height + 6));
     cv::line(picture_, at + cv::Point(-34, -4), at + cv::Point(-8, -4), color, 3, cv::LINE_AA);
     draw_text(picture_, text, at);
 }

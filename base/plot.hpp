@@ -34,7 +34,7 @@ class Plot
     cv::Point place(cv::Point2d p) const; // in sixteenths of a pixel
 };
 
-inline constexpr int kTextHeight = 14; // pixels
+inline constexpr int text_height = 14; // pixels
 void draw_text(const cv::Mat3b& picture, const std::string& text, cv::Point lower_left,
                cv::Scalar color = {40, 40, 40}, double scale = 1);
 

@@ -19,7 +19,7 @@ cicatrix_document(zsh _cicatrix ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
 cicatrix_document(fish cicatrix.fish ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 add_custom_target(documents ALL DEPENDS ${document_files})
 
-install(TARGETS cicatrix RUNTIME)
+install(TARGETS cicatrix cicatrix-head RUNTIME)
 install(PROGRAMS tools/head/cicatrix-fetch-head TYPE BIN)
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/cicatrix)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

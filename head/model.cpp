@@ -1,6 +1,7 @@
 #include "head/model.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "base/input_error.hpp"
 #include "head/gltf_load.hpp"

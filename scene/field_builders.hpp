@@ -1,6 +1,7 @@
 // Makes the entries of scene/field_table.cpp: a field of each type that JSON files hold. An accessor is a
 // generic lambda from the object, const or not, to a reference to the member.
 #pragma once
+#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -158,6 +159,117 @@ inline Field<Scene> tissue_field()
                                                : std::filesystem::path{};
     };
     field.set_file = [](Scene& scene, const std::filesystem::path& path) { scene.tissue = path.string(); };
+    return field;
+}
+
+/// Rules about several fields of one object.
+void check_object(base::Fields& fields, const Wound& wound);
+void check_object(base::Fields& fields, const Light& light);
+template <typename Object>
+void check_object(base::Fields&, const Object&)
+{
+}
+
+template <typename Object>
+void read_object(const std::vector<Field<Object>>& table, const nlohmann::json& value,
+                 const std::string& where, Object& object, Reading& reading)
+{
+    base::Fields fields(value, where);
+    for (const Field<Object>& field : table)
+        field.read(fields, object, reading);
+    check_object(fields, object);
+    fields.finish();
+}
+
+/// A field that is an object with a table of its own.
+template <typename Object, typename Member>
+Field<Object> nested(std::string name, const std::vector<Field<Member>>& table, Member Object::*member,
+                     std::string meaning, Affects affects = Affects::Photograph)
+{
+    Field<Object> field = custom<Object>(
+        name, "object", std::move(meaning),
+        [name, &table, member](base::Fields& fields, Object& object, Reading& reading) {
+            if (const nlohmann::json* value = fields.get(name))
+                read_object(table, *value, fields.where(name), object.*member, reading);
+        },
+        [name, &table, member](nlohmann::json& to, const Object& object) {
+            to[name] = object_json(table, object.*member);
+        });
+    field.affects = affects;
+    return field;
+}
+
+/// A field that is an array of such objects. `fresh` makes the object whose fields are then read.
+template <typename Object, typename Member, typename Fresh>
+Field<Object> list(std::string name, std::size_t most, const std::vector<Field<Member>>& table,
+                   std::vector<Member> Object::*member, std::string meaning, Fresh fresh)
+{
+    return custom<Object>(
+        name, fmt::format("array, at most {}", most), std::move(meaning),
+        [=, &table](base::Fields& fields, Object& object, Reading& reading) {
+            const nlohmann::json* values = fields.get(name);
+            if (values == nullptr)
+                return;
+            if (!values->is_array() || values->size() > most)
+                fields.fail(name, "is " + values->dump().substr(0, 60),
+                            fmt::format("give an array of at most {} {}", most, name));
+            (object.*member).clear();
+            for (std::size_t i = 0; i < values->size(); ++i) {
+                Member& made = (object.*member).emplace_back(fresh(reading));
+                read_object(table, (*values)[i], fmt::format("{}/{}", fields.where(name), i), made, reading);
+            }
+        },
+        [=, &table](nlohmann::json& to, const Object& object) {
+            to[name] = nlohmann::json::array();
+            for (const Member& value : object.*member)
+                to[name].push_back(object_json(table, value));
+        });
+}
+
+/// A default as a person writes it: `0.25`, `[0, 0, 0]`, `"cheek"`.
+inline std::string default_text(const nlohmann::json& value)
+{
+    if (value.is_number())
+        return base::plain(value.get<double>());
+    if (!value.is_array())
+        return value.dump();
+    std::vector<std::string> elements;
+    for (const nlohmann::json& element : value)
+        elements.push_back(default_text(element));
+    return fmt::format("[{}]", fmt::join(elements, ", "));
+}
+
+/// Fills in the default column of a table from what `object` writes.
+template <typename Object>
+std::vector<Field<Object>> with_defaults(std::vector<Field<Object>> fields, const Object& object = {})
+{
+    for (Field<Object>& field : fields) {
+        nlohmann::json written;
+        field.write(written, object);
+        if (field.default_value.empty() && written.size() == 1 && !written.front().is_object())
+            field.default_value = fmt::format("`{}`", default_text(written.front()));
+    }
+    return fields;
+}
+
+template <typename Object>
+Field<Object> defaulting(Field<Object> field, std::string text)
+{
+    field.default_value = std::move(text);
+    return field;
+}
+
+template <typename Object>
+Field<Object> affecting(Affects affects, Field<Object> field)
+{
+    field.affects = affects;
+    return field;
+}
+
+template <typename Object>
+Field<Object> with_slider(Field<Object> field, Slider slider)
+{
+    field.slider = std::move(slider);
     return field;
 }
 

@@ -10,6 +10,7 @@
 #include "base/input_error.hpp"
 #include "base/json_fields.hpp"
 #include "scene/field_builders.hpp"
+#include "scene/field_values.hpp"
 #include "scene/file.hpp"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/shading.h"
@@ -21,249 +22,12 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double most_pixels = 1 << 20; // whether hints lie in the photograph is seen when that is read
-
-// ---- What no builder can read or write
-// ---------------------------------------------------------------------------
-
-head::Place read_place(base::Fields& fields, const head::Place& fallback)
-{
-    const json* value = fields.get("at");
-    if (value == nullptr)
-        return fallback;
-    if (value->is_string())
-        return value->get<std::string>();
-    if (value->is_array() && value->size() == 2) {
-        const auto at = fields.numbers<2>("at", {}, -3, 3);
-        return head::FacePoint{at[0], at[1]};
-    }
-    if (value->is_array() && value->size() == 3) {
-        const auto at = fields.numbers<3>("at", {}, -10, 10);
-        return glm::dvec3(at[0], at[1], at[2]);
-    }
-    fields.fail("at", "is " + value->dump(),
-                "give a named place, face coordinates [x, y] or a point [x, y, z] in metres");
-}
-
-json place_json(const head::Place& place)
-{
-    if (const auto* name = std::get_if<std::string>(&place))
-        return *name;
-    if (const auto* face = std::get_if<head::FacePoint>(&place))
-        return {face->x, face->y};
-    const glm::dvec3& point = std::get<glm::dvec3>(place);
-    return {point.x, point.y, point.z};
-}
-
-json hints_json(const wound::SegmentationHints& hints)
-{
-    json object = json::object();
-    if (hints.rect)
-        object["rect"] = {hints.rect->x, hints.rect->y, hints.rect->width, hints.rect->height};
-    if (hints.seed)
-        object["seed"] = {hints.seed->x, hints.seed->y};
-    return object;
-}
-
-std::vector<double> read_days(const json& value, const std::string& where)
-{
-    if (value.is_string())
-        return parse_days(value.get<std::string>(), where);
-    if (value.is_number())
-        return parse_days(value.dump(), where);
-    if (!value.is_array() || value.empty())
-        throw base::InputError(where, "is " + value.dump(), "write \"0:30:3\" or an array of days");
-    std::string text;
-    for (const json& day : value)
-        text += (text.empty() ? "" : ",") + day.dump();
-    return parse_days(text, where);
-}
-
-View read_view(const json& value, const std::string& where, Reading& reading)
-{
-    if (value.is_string())
-        return {value.get<std::string>(), std::nullopt};
-    base::Fields fields(value, where);
-    View view{fields.text("name", ""), std::nullopt};
-    const bool fit = std::ranges::all_of(
-        view.name, [](unsigned char c) { return c < 128 && (std::isalnum(c) || c == '-' || c == '_'); });
-    if (view.name.empty() || view.name.size() > 40 || !fit)
-        fields.fail("name", "is \"" + view.name + "\"",
-                    "give the view a name of letters, digits, - and _, for it goes into names of files");
-    Camera camera;
-    for (const Field<Camera>& field : camera_fields())
-        field.read(fields, camera, reading);
-    view.camera = camera;
-    fields.finish();
-    return view;
-}
-
-void read_views(base::Fields& fields, std::vector<View>& views, Reading& reading)
-{
-    const json* list = fields.get("views");
-    if (list == nullptr)
-        return;
-    if (!list->is_array() || list->size() > 64)
-        fields.fail("views", "is " + list->dump().substr(0, 60), "give an array of at most 64 views");
-    for (std::size_t i = 0; i < list->size(); ++i) {
-        const std::string where = fmt::format("{}/{}", fields.where("views"), i);
-        views.push_back(read_view((*list)[i], where, reading));
-        if (std::ranges::count(views, views.back().name, &View::name) > 1)
-            throw base::InputError(where, "is called \"" + views.back().name + "\" as another one is",
-                                   "give each view a name of its own");
-    }
-}
-
-json views_json(const std::vector<View>& views)
-{
-    json result = json::array();
-    for (const View& view : views) {
-        if (!view.camera) {
-            result.push_back(view.name);
-            continue;
-        }
-        result.push_back(object_json(camera_fields(), *view.camera));
-        result.back()["name"] = view.name;
-    }
-    return result;
-}
-
 std::vector<std::string> reflectance_models()
 {
     std::vector<std::string> names;
     for (const optics::ReflectanceModel model : optics::all_reflectance_models())
         names.emplace_back(name(model));
     return names;
-}
-
-// ---- Rules about several fields of one object
-// --------------------------------------------------------------------
-
-void check_object(base::Fields& fields, const Wound& wound)
-{
-    if (!wound.mask.empty() && wound.photo.empty())
-        fields.fail("mask", "is given without a photo", "name the photo it belongs to");
-    if (wound.segmentation.any() && wound.photo.empty())
-        fields.fail("segmentation", "is given without a photo", "name the photo in which to look");
-    if (wound.segmentation.any() && !wound.mask.empty())
-        fields.fail("segmentation", "is given beside a mask", "give one of the two: a mask needs no hints");
-}
-
-void check_object(base::Fields& fields, const Light& light)
-{
-    if (const double brightest = light.intensity * *std::ranges::max_element(light.color); brightest > 1e4)
-        fields.fail("intensity", fmt::format("times the color is {}", base::plain(brightest)),
-                    "keep that at most 1e4");
-}
-
-template <typename Object>
-void check_object(base::Fields&, const Object&)
-{
-}
-
-template <typename Object>
-void read_object(const std::vector<Field<Object>>& table, const json& value, const std::string& where,
-                 Object& object, Reading& reading)
-{
-    base::Fields fields(value, where);
-    for (const Field<Object>& field : table)
-        field.read(fields, object, reading);
-    check_object(fields, object);
-    fields.finish();
-}
-
-/// A field that is an object with a table of its own.
-template <typename Object, typename Member>
-Field<Object> nested(std::string name, const std::vector<Field<Member>>& table, Member Object::*member,
-                     std::string meaning, Affects affects = Affects::Photograph)
-{
-    Field<Object> field = custom<Object>(
-        name, "object", std::move(meaning),
-        [name, &table, member](base::Fields& fields, Object& object, Reading& reading) {
-            if (const json* value = fields.get(name))
-                read_object(table, *value, fields.where(name), object.*member, reading);
-        },
-        [name, &table, member](json& to, const Object& object) {
-            to[name] = object_json(table, object.*member);
-        });
-    field.affects = affects;
-    return field;
-}
-
-/// A field that is an array of such objects. `fresh` makes the object whose fields are then read.
-template <typename Object, typename Member, typename Fresh>
-Field<Object> list(std::string name, std::size_t most, const std::vector<Field<Member>>& table,
-                   std::vector<Member> Object::*member, std::string meaning, Fresh fresh)
-{
-    return custom<Object>(
-        name, fmt::format("array, at most {}", most), std::move(meaning),
-        [=, &table](base::Fields& fields, Object& object, Reading& reading) {
-            const json* values = fields.get(name);
-            if (values == nullptr)
-                return;
-            if (!values->is_array() || values->size() > most)
-                fields.fail(name, "is " + values->dump().substr(0, 60),
-                            fmt::format("give an array of at most {} {}", most, name));
-            (object.*member).clear();
-            for (std::size_t i = 0; i < values->size(); ++i) {
-                Member& made = (object.*member).emplace_back(fresh(reading));
-                read_object(table, (*values)[i], fmt::format("{}/{}", fields.where(name), i), made, reading);
-            }
-        },
-        [=, &table](json& to, const Object& object) {
-            to[name] = json::array();
-            for (const Member& value : object.*member)
-                to[name].push_back(object_json(table, value));
-        });
-}
-
-/// The default column of a table, from what a default object writes.
-template <typename Object>
-std::vector<Field<Object>> with_defaults(std::vector<Field<Object>> fields)
-{
-    const Object object;
-    for (Field<Object>& field : fields) {
-        if (!field.default_value.empty())
-            continue;
-        json written;
-        field.write(written, object);
-        for (const json& value : written)
-            if (!value.is_object())
-                field.default_value = fmt::format("`{}`", value.dump());
-    }
-    return fields;
-}
-
-template <typename Object>
-Field<Object> defaulting(Field<Object> field, std::string text)
-{
-    field.default_value = std::move(text);
-    return field;
-}
-
-template <typename Object>
-Field<Object> affecting(Affects affects, Field<Object> field)
-{
-    field.affects = affects;
-    return field;
-}
-
-template <typename Object>
-Field<Object> with_slider(Field<Object> field, Slider slider)
-{
-    field.slider = std::move(slider);
-    return field;
-}
-
-template <typename Object>
-void append_documentation(std::vector<std::pair<std::string, std::string>>& tables, const char* heading,
-                          const std::vector<Field<Object>>& fields)
-{
-    std::string table = "| field | unit, range | default | meaning |\n|---|---|---|---|\n";
-    for (const Field<Object>& field : fields)
-        table += fmt::format("| `{}` | {} | {} | {} |\n", field.name, field.range, field.default_value,
-                             field.meaning);
-    tables.emplace_back(heading, std::move(table));
 }
 
 } // namespace
@@ -431,8 +195,8 @@ const std::vector<Field<optics::Shading>>& shading_fields()
     using optics::Shading;
     static const std::vector<std::string> ward_names{"published", "duer", "bounded"},
         translucency_names{"published", "bounded"}, blend_names{"published", "corrected"};
-    static const std::vector<Field<Shading>> table = [] {
-        std::vector<Field<Shading>> made{
+    static const std::vector<Field<Shading>> table = with_defaults<Shading>(
+        {
             boolean<Shading>(
                 "lambert", [](auto& s) -> auto& { return s.lambert; }, "the diffuse term of eq. (8)"),
             boolean<Shading>(
@@ -479,15 +243,8 @@ const std::vector<Field<optics::Shading>>& shading_fields()
             numbers<Shading>(
                 "ambient", "linear", 0, 1000, [](auto& s) -> auto& { return s.ambient.val; },
                 "radiance of the surroundings, dimmed by the head's ambient occlusion"),
-        };
-        const Shading skin = optics::skin_shading(); // a scene's default, not the struct's
-        for (Field<Shading>& field : made) {
-            json written;
-            field.write(written, skin);
-            field.default_value = fmt::format("`{}`", written.front().dump());
-        }
-        return made;
-    }();
+        },
+        optics::skin_shading()); // a scene's defaults
     return table;
 }
 
@@ -495,16 +252,16 @@ const std::vector<Field<Scene>>& scene_fields()
 {
     static const std::vector<Field<Scene>> table = with_defaults<Scene>({
         custom<Scene>(
-            "version", fmt::format("{}", kSceneVersion),
+            "version", fmt::format("{}", scene_version),
             "of this format; a file of a later version is refused",
             [](base::Fields& fields, Scene&, Reading&) {
-                if (const json* version = fields.get("version"); version && *version != kSceneVersion)
+                if (const json* version = fields.get("version"); version && *version != scene_version)
                     fields.fail(
                         "version", "is " + version->dump(),
                         fmt::format("this program reads version {}: get a newer one, or leave the field out",
-                                    kSceneVersion));
+                                    scene_version));
             },
-            [](json& to, const Scene&) { to["version"] = kSceneVersion; }),
+            [](json& to, const Scene&) { to["version"] = scene_version; }),
         defaulting(file<Scene>(
                        "head", "path to `.glb` or `.gltf`", [](auto& s) -> auto& { return s.head; },
                        "in metres, y up, face towards +z; a head of absurd size is scaled and the program "
@@ -579,50 +336,6 @@ const std::vector<Field<Scene>>& scene_fields()
     return table;
 }
 
-wound::SegmentationHints read_hints(const json& object, const std::string& where)
-{
-    base::Fields fields(object, where);
-    wound::SegmentationHints hints;
-    if (fields.has("rect")) {
-        const auto rect = fields.numbers<4>("rect", {}, 0, most_pixels);
-        hints.rect = cv::Rect(int(rect[0]), int(rect[1]), int(rect[2]), int(rect[3]));
-    }
-    if (fields.has("seed")) {
-        const auto seed = fields.numbers<2>("seed", {}, 0, most_pixels);
-        hints.seed = cv::Point(int(seed[0]), int(seed[1]));
-    }
-    fields.finish();
-    return hints;
-}
-
-Scene scene_of(const json& root, const std::filesystem::path& path, const std::string& where)
-{
-    Scene scene;
-    Reading reading{path, {}};
-    read_object(scene_fields(), root, where + ": ", scene, reading);
-    return scene;
-}
-
-json to_json(const Scene& scene)
-{
-    return object_json(scene_fields(), scene);
-}
-
-Scene with_files(Scene scene,
-                 const std::function<std::filesystem::path(const std::filesystem::path&)>& rename)
-{
-    const auto rename_in = [&](const auto& fields, auto& object) {
-        for (const auto& field : fields)
-            if (field.file)
-                if (const std::filesystem::path file = field.file(object); !file.empty())
-                    field.set_file(object, rename(file));
-    };
-    rename_in(scene_fields(), scene);
-    for (Wound& wound : scene.wounds)
-        rename_in(wound_fields(), wound);
-    return scene;
-}
-
 void hash_fields(base::Hash& hash, const Wound& wound, Affects affects)
 {
     json written;
@@ -648,17 +361,5 @@ template const Field<Wound>& field_named(const std::vector<Field<Wound>>&, std::
 template const Field<wound::Healing>& field_named(const std::vector<Field<wound::Healing>>&,
                                                   std::string_view);
 template const Field<Light>& field_named(const std::vector<Field<Light>>&, std::string_view);
-
-std::vector<std::pair<std::string, std::string>> field_documentation()
-{
-    std::vector<std::pair<std::string, std::string>> tables;
-    append_documentation(tables, "scene", scene_fields());
-    append_documentation(tables, "wounds[]", wound_fields());
-    append_documentation(tables, "healing", healing_fields());
-    append_documentation(tables, "lights[]", light_fields());
-    append_documentation(tables, "camera", camera_fields());
-    append_documentation(tables, "shading", shading_fields());
-    return tables;
-}
 
 } // namespace scene

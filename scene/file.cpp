@@ -7,8 +7,39 @@
 
 #include "base/file.hpp"
 #include "base/input_error.hpp"
+#include "base/json_fields.hpp"
+#include "scene/field_builders.hpp"
 
 namespace scene {
+using nlohmann::json;
+
+Scene scene_of(const json& root, const std::filesystem::path& path, const std::string& where)
+{
+    Scene scene;
+    Reading reading{path, {}};
+    read_object(scene_fields(), root, where + ": ", scene, reading);
+    return scene;
+}
+
+json to_json(const Scene& scene)
+{
+    return object_json(scene_fields(), scene);
+}
+
+Scene with_files(Scene scene,
+                 const std::function<std::filesystem::path(const std::filesystem::path&)>& rename)
+{
+    const auto rename_in = [&](const auto& fields, auto& object) {
+        for (const auto& field : fields)
+            if (field.file)
+                if (const std::filesystem::path file = field.file(object); !file.empty())
+                    field.set_file(object, rename(file));
+    };
+    rename_in(scene_fields(), scene);
+    for (Wound& wound : scene.wounds)
+        rename_in(wound_fields(), wound);
+    return scene;
+}
 
 Scene read_scene(const std::filesystem::path& path)
 {

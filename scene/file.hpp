@@ -13,7 +13,7 @@
 namespace scene {
 
 /// The format of scene files. A file may state it as "version"; one of a later version is refused.
-inline constexpr int kSceneVersion = 1;
+inline constexpr int scene_version = 1;
 
 /// Reads a scene; files inside are relative to the scene's folder. Throws base::InputError naming file and
 /// field.

@@ -174,14 +174,14 @@ std::vector<head::Anchor> anchors_of(const Wound& wound, const FittedPhotograph&
 {
     const double scale = wound.width_mm / photograph.wound.width_mm; // it may be for another width
     std::vector<head::Anchor> anchors{head::anchor_wound(*head.model, head.face, wound.place,
-                                                         wound.width_mm / wound::kWoundShare, wound.roll_deg,
+                                                         wound.width_mm / wound::wound_share, wound.roll_deg,
                                                          name + ": at")};
     for (std::size_t i = 1; i < photograph.layout.size(); ++i) {
         const FittedPhotograph::Part& part = photograph.layout[i];
         anchors.push_back(head::anchor_beside(
             *head.model, head.face, anchors.front(),
             1e-3 * scale * glm::dvec2(part.offset_mm.x, part.offset_mm.y),
-            scale * part.width_mm / wound::kWoundShare,
+            scale * part.width_mm / wound::wound_share,
             fmt::format("{}: component {} of the mask, or of what was found without one", name, i + 1)));
     }
     return anchors;

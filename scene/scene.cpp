@@ -19,7 +19,7 @@ void make_published(Scene& scene)
     scene.reflectance_model = optics::ReflectanceModel::Published;
     scene.tissue = "table1";
     for (Wound& wound : scene.wounds)
-        wound.healing.model = wound::HealingModel::contraction;
+        wound.healing.model = wound::HealingModel::Contraction;
     if (!scene.lights.empty()) {
         scene.lights.resize(1);
         scene.lights.front().falloff = false;

@@ -225,12 +225,12 @@ Polyline control_points(const Polyline& border, cv::Point2d centroid, double spa
 {
     CV_Assert(border.size() >= 3 && spacing > 0);
     spacing = std::max(spacing, widest_extent(border) /
-                                    kMostControlPoints); // finer lines would only be thinned out again
+                                    most_control_points); // finer lines would only be thinned out again
     Polyline points = crossings(border, centroid, spacing);
-    constexpr int kTries = 40; // each changes the spacing by a quarter; more would be another shape
-    for (int i = 0; i < kTries && static_cast<int>(points.size()) < kFewestControlPoints; ++i)
+    constexpr int tries = 40; // each changes the spacing by a quarter; more would be another shape
+    for (int i = 0; i < tries && static_cast<int>(points.size()) < fewest_control_points; ++i)
         points = crossings(border, centroid, spacing *= .8);
-    for (int i = 0; i<kTries&& static_cast<int>(points.size())> kMostControlPoints; ++i)
+    for (int i = 0; i<tries&& static_cast<int>(points.size())> most_control_points; ++i)
         points = crossings(border, centroid, spacing *= 1.25);
     return points;
 }

@@ -27,13 +27,13 @@ struct Moments
 /// subpixel.
 Moments moments_of(const cv::Mat1f& coverage);
 
-inline constexpr int kFewestControlPoints = 8;
-inline constexpr int kMostControlPoints = 512;
+inline constexpr int fewest_control_points = 8;
+inline constexpr int most_control_points = 512;
 
 /// Where lines x = centroid.x + k spacing and y = centroid.y + k spacing cross the border, in order along it.
 /// Crossings nearer than a quarter of the spacing along the border become one, in their middle. The spacing
-/// shrinks until there are at least kFewestControlPoints, and grows until there are at most
-/// kMostControlPoints.
+/// shrinks until there are at least fewest_control_points, and grows until there are at most
+/// most_control_points.
 Polyline control_points(const Polyline& border, cv::Point2d centroid, double spacing);
 
 /// The widest spacing at which straight lines between the control points stray from the border by at most

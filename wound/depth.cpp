@@ -25,7 +25,7 @@ struct Site
 // Med. J., "Epidermis, dermis and total skin thicknesses from six different face regions"). Soft tissue to
 // the bone: after the pooled means for adults of Stephan & Simpson 2008, J. Forensic Sci. 53(6):1257,
 // rounded.
-const Site kSites[] = {
+const Site face_sites[] = {
     {{0, .60}, 1.7, 5.5},   // forehead, glabella
     {{.35, .75}, 1.7, 5},   // forehead, side
     {{.30, .42}, 1.5, 6},   // brow
@@ -40,7 +40,7 @@ const Site kSites[] = {
     {{0, -.50}, 1.2, 12},   // lower lip
     {{0, -.75}, 1.5, 11},   // chin
 };
-constexpr double kThickestSubcutis = 9; // mm, Table 1; what lies deeper is muscle
+constexpr double thickest_subcutis = 9; // mm, Table 1; what lies deeper is muscle
 
 cv::Vec3f masked_mean(const cv::Mat3f& image, const cv::Mat1b& where)
 {
@@ -66,14 +66,14 @@ cv::Mat1f blur_inside(const cv::Mat1f& values, const cv::Mat1f& weight, double s
 
 TissueThickness tissue_thickness(cv::Point2d face)
 {
-    constexpr double kReach = .18; // face units over which a site's value holds
+    constexpr double reach = .18; // face units over which a site's value holds
     const cv::Point2d place(std::abs(face.x), face.y);
     double weights = 0, dermis = 0, soft = 0;
-    for (const Site& site : kSites) {
+    for (const Site& site : face_sites) {
         const cv::Point2d offset = place - site.face;
         // Inverse powers rather than Gaussians: far from every site the nearest ones still decide, without
         // 0/0.
-        const double squared = offset.dot(offset) / (kReach * kReach);
+        const double squared = offset.dot(offset) / (reach * reach);
         const double weight = 1 / ((1 + squared) * (1 + squared) * (1 + squared));
         weights += weight;
         dermis += weight * site.dermis_mm;
@@ -81,7 +81,7 @@ TissueThickness tissue_thickness(cv::Point2d face)
     }
     TissueThickness tissue;
     tissue.dermis = dermis / weights;
-    tissue.subcutis = std::clamp(soft / weights - tissue.dermis - tissue.epidermis, .5, kThickestSubcutis);
+    tissue.subcutis = std::clamp(soft / weights - tissue.dermis - tissue.epidermis, .5, thickest_subcutis);
     return tissue;
 }
 

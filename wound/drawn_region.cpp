@@ -8,7 +8,7 @@ namespace wound {
 
 namespace {
 
-constexpr double kMargin =
+constexpr double margin =
     2; // texels: bilinear sampling, and the quarter texel by which the warps' models differ
 
 /// Smallest and largest ratio of the area inside the border over all days.
@@ -34,7 +34,7 @@ bool outline_shows(const cv::Rect& region, const Warp& warp, const cv::Mat1f& to
         // The shader blurs where many texels of day 0 meet in one of today's.
         const double blur = std::max(1., cv::norm(day0 - warp.centroid) / cv::norm(today - warp.centroid));
         const auto texel = [&](double t) { return std::clamp(int((t + 1) * n / 2), 0, n - 1); };
-        return to_opaque(texel(day0.y), texel(day0.x)) < kMargin * blur;
+        return to_opaque(texel(day0.y), texel(day0.x)) < margin * blur;
     };
     constexpr int step = 4; // texels; the map is smooth out here
     for (int x = region.x; x < region.br().x; x += step)
@@ -57,17 +57,17 @@ cv::Rect drawn_region(const PreparedWound& wound, const Healing& healing)
     const auto grown = [&](const cv::Rect& rect, int by) {
         return cv::Rect(rect.tl() - cv::Point(by, by), rect.br() + cv::Point(by, by)) & patch;
     };
-    cv::Rect region = grown(cv::boundingRect(opacity > 0), 2 * int(kMargin));
+    cv::Rect region = grown(cv::boundingRect(opacity > 0), 2 * int(margin));
     if (region.empty())
         return {patch.width / 2, patch.height / 2, 1, 1};
 
     const auto [least, largest] = border_ratios(healing);
     constexpr double finer = .75; // between the ratios that are looked at
     for (double ratio = largest;; ratio = std::max(least, finer * ratio)) {
-        const Warp warp = make_warp(wound.flow, ratio, WarpModel::composed);
+        const Warp warp = make_warp(wound.flow, ratio, WarpModel::Composed);
         while (region != patch && outline_shows(region, warp, to_opaque))
             region = grown(region, std::max(1, patch.width / 64));
-        if (ratio <= std::max(least, kSmallestScale * kSmallestScale) || region == patch)
+        if (ratio <= std::max(least, smallest_scale * smallest_scale) || region == patch)
             return region;
     }
 }

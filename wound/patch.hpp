@@ -24,7 +24,7 @@ struct Patch
     cv::Mat1f mask; // antialiased coverage of the wound (inside its border) 0..1
     cv::Mat1f depth_mm;  // tissue missing; negative where the rim is swollen
     double width_mm = 0; // of the whole patch, on the head
-    /// Healthy skin, beside the wound. If not, prepare() has put kAverageSkin there (wound/healthy_skin.hpp).
+    /// Healthy skin, beside the wound. If not, prepare() has put average_skin there (wound/healthy_skin.hpp).
     bool shows_skin = true;
 };
 

@@ -145,7 +145,7 @@ PhotoFrame photo_frame(const cv::Mat1b& mask)
     const cv::Rect bounds = cv::boundingRect(mask);
     const cv::Moments moments = cv::moments(mask, true);
     return {{moments.m10 / moments.m00, moments.m01 / moments.m00},
-            std::max(bounds.width, bounds.height) / kWoundShare};
+            std::max(bounds.width, bounds.height) / wound_share};
 }
 
 /// Checked. Of a full one what the picture's black surroundings leave.
@@ -164,7 +164,7 @@ void check(const Photograph& photograph, const Preparation& preparation)
 {
     if (photograph.srgb.empty())
         throw base::InputError(preparation.where, "the photograph is empty", "give a PNG or JPEG picture");
-    if (!(preparation.width_mm >= kLeastWidth_mm && preparation.width_mm <= 200))
+    if (!(preparation.width_mm >= least_width_mm && preparation.width_mm <= 200))
         throw base::InputError(fmt::format("{}: width_mm", preparation.where),
                                fmt::format("{} is out of range", preparation.width_mm),
                                "give the wound's longer side, from 0.5 to 200 mm");
@@ -182,8 +182,8 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
     const auto [centroid, side] = photo_frame(mask);
 
     // A photograph much finer than the patch is made coarser first: its linear colours would need gigabytes.
-    constexpr double kFinest = 4; // pixels per texel
-    const double shrink = std::min(1., kFinest * preparation.patch_size / side);
+    constexpr double finest = 4; // pixels per texel
+    const double shrink = std::min(1., finest * preparation.patch_size / side);
     cv::Mat3b srgb = photograph.srgb;
     cv::Mat1b working_mask = mask;
     if (shrink < 1) {
@@ -209,16 +209,16 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
     if (!others.empty())
         skin = skin.mul(away_from(others));
     const cv::Mat1b certain = skin > .5F;
-    patch.shows_skin = cv::countNonZero(certain) >= kLeastSkin * static_cast<double>(certain.total());
+    patch.shows_skin = cv::countNonZero(certain) >= least_skin * static_cast<double>(certain.total());
     if (!patch.shows_skin)
         skin.setTo(0);
     fill_outside(patch.color, picture, skin,
                  patch.shows_skin ? mean_of(patch.color, certain)
-                                  : cv::Vec3f(base::linear_from_lab(kAverageSkin)));
+                                  : cv::Vec3f(base::linear_from_lab(average_skin)));
     patch.opacity = first_opacity(patch.mask, picture);
     if (!others.empty())
         leave_out(patch, others);
-    patch.width_mm = preparation.width_mm / kWoundShare;
+    patch.width_mm = preparation.width_mm / wound_share;
     PreparedWound wound = prepare_patch(std::move(patch), preparation, false);
     wound.photo_mask = mask;
     wound.photo_center = centroid;
@@ -228,24 +228,24 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
 
 std::vector<WoundPart> separate(const Photograph& photograph, const Preparation& preparation)
 {
-    constexpr std::size_t kMost = 64;
+    constexpr std::size_t most = 64;
     const auto& [where, width_mm] = std::tie(preparation.where, preparation.width_mm);
     const cv::Mat1b given =
         photograph.mask.empty() ? segment(photograph.srgb, preparation.hints, where) : photograph.mask;
     const cv::Mat1b largest = checked_mask(given, photograph.srgb.size(), where);
     const cv::Mat1b all = given > 127;
-    const std::vector<cv::Mat1b> masks = components(all, kMost + 1);
-    if (masks.size() > kMost)
-        throw base::InputError(where, fmt::format("the mask has more than {} components", kMost),
+    const std::vector<cv::Mat1b> masks = components(all, most + 1);
+    if (masks.size() > most)
+        throw base::InputError(where, fmt::format("the mask has more than {} components", most),
                                "paint each wound as one white area, without specks");
     const PhotoFrame first = photo_frame(largest);
-    const double mm_per_pixel = width_mm / (first.side * kWoundShare);
+    const double mm_per_pixel = width_mm / (first.side * wound_share);
     std::vector<WoundPart> parts;
     for (const cv::Mat1b& mask : masks) {
         checked_mask(mask, photograph.srgb.size(), where);
         const PhotoFrame frame = photo_frame(mask);
         parts.push_back({{photograph.srgb, mask, masks.size() > 1 ? cv::Mat1b(all & ~mask) : cv::Mat1b()},
-                         std::max(frame.side * kWoundShare * mm_per_pixel, kLeastWidth_mm),
+                         std::max(frame.side * wound_share * mm_per_pixel, least_width_mm),
                          (frame.centroid - first.centroid) * mm_per_pixel});
     }
     return parts;
@@ -282,7 +282,7 @@ PreparedWound prepare_patch(Patch patch, const Preparation& preparation, bool ke
     return wound;
 }
 
-WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day, WarpModel level)
+WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day, WarpModel model)
 {
     const HealingState state = healing_at(healing, day);
     WoundDay result;
@@ -293,7 +293,7 @@ WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day
     result.depth_scale = state.depth_scale;
     result.bed_recovery = result.border_recovery =
         state.recovery_ratio; // the paper's: one r for all of the wound
-    if (healing.model == HealingModel::face) {
+    if (healing.model == HealingModel::Face) {
         // The open bed stays a wound until new epithelium covers it; that is pink, and a quarter of the
         // way to skin when the wound closes.
         result.bed_recovery = 0.12 * state.recovery_ratio;
@@ -306,13 +306,13 @@ WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day
         result.phase = phase_at(day, closure_day(healing.curve));
     }
     result.bed_presence =
-        base::smoothstep(static_cast<float>(kSmallestScale * kSmallestScale),
-                         static_cast<float>(kClosedRatio), static_cast<float>(state.unhealed_ratio));
+        base::smoothstep(static_cast<float>(smallest_scale * smallest_scale),
+                         static_cast<float>(closed_ratio), static_cast<float>(state.unhealed_ratio));
     result.scar = scar_at(healing, day);
-    result.border_warp = make_warp(wound.flow, state.border_ratio, level);
+    result.border_warp = make_warp(wound.flow, state.border_ratio, model);
     result.bed_warp = state.unhealed_ratio == state.border_ratio
                           ? result.border_warp
-                          : make_warp(wound.flow, state.unhealed_ratio, level);
+                          : make_warp(wound.flow, state.unhealed_ratio, model);
     return result;
 }
 

@@ -10,8 +10,8 @@
 
 namespace wound {
 
-inline constexpr double kWoundShare = .45; // the wound's longer side / the patch's side
-inline constexpr double kLeastWidth_mm = .5;
+inline constexpr double wound_share = .45; // the wound's longer side / the patch's side
+inline constexpr double least_width_mm = .5;
 
 struct Preparation
 {
@@ -51,6 +51,6 @@ PreparedWound prepare_patch(Patch patch, const Preparation& preparation, bool ke
 
 /// What the wound is on a day: ratios and both backward warps.
 WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day,
-                  WarpModel model = WarpModel::grid);
+                  WarpModel model = WarpModel::Grid);
 
 } // namespace wound

@@ -188,7 +188,7 @@ cv::Mat3f cached_reflectance_table(const std::filesystem::path& folder,
     return table;
 }
 
-cv::Mat3f kept_table(const LutRows& rows, std::uint32_t width, optics::ReflectanceModel level,
+cv::Mat3f kept_table(const LutRows& rows, std::uint32_t width, optics::ReflectanceModel model,
                      optics::ReflectanceOptions options)
 {
     base::Progress progress;
@@ -198,9 +198,9 @@ cv::Mat3f kept_table(const LutRows& rows, std::uint32_t width, optics::Reflectan
     options.progress = [&](double share) {
         for (; static_cast<double>(done) < share * steps; ++done)
             progress.step();
-        progress.show(fmt::format("reflectance table, {}", optics::name(level)));
+        progress.show(fmt::format("reflectance table, {}", optics::name(model)));
     };
-    return cached_reflectance_table(base::cache_folder(), rows.days, width, level, options);
+    return cached_reflectance_table(base::cache_folder(), rows.days, width, model, options);
 }
 
 base::Color sample_table(const cv::Mat3f& table, const shared::LutAxes& axes, shared::uint part,

@@ -166,7 +166,7 @@ Face coarse_face(const cv::Mat3f& skin)
     return face;
 }
 
-/// Where the photograph shows no healthy skin: that of the face, or else kAverageSkin, nowhere to be seen.
+/// Where the photograph shows no healthy skin: that of the face, or else average_skin, nowhere to be seen.
 HealthySkin assumed_skin(const Face& face)
 {
     HealthySkin skin;
@@ -178,7 +178,7 @@ HealthySkin assumed_skin(const Face& face)
     if (face.log_green)
         skin.log_color = {float(mean[0]), float(mean[1]), float(mean[2])};
     else
-        cv::log(Vec3f(base::linear_from_lab(kAverageSkin)), skin.log_color);
+        cv::log(Vec3f(base::linear_from_lab(average_skin)), skin.log_color);
     return skin;
 }
 

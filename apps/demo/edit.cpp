@@ -13,7 +13,7 @@ namespace {
 /// Radius of a wound's outline, metres.
 double radius_of(const head::Anchor& anchor)
 {
-    return anchor.half_width_m * wound::kWoundShare;
+    return anchor.half_width_m * wound::wound_share;
 }
 
 constexpr double handle_distance = 1.45; // of the roll handle from the centre, in radii

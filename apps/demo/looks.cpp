@@ -4,16 +4,11 @@
 #include <filesystem>
 #include <imgui.h>
 
+#include "apps/demo/field_slider.hpp"
 #include "apps/demo/ui.hpp"
 
 namespace demo_command {
 namespace {
-
-void slider(const char* name, double& value, double low, double high, const char* format)
-{
-    ImGui::SliderScalar(name, ImGuiDataType_Double, &value, &low, &high, format,
-                        ImGuiSliderFlags_AlwaysClamp);
-}
 
 void draw_skin(DemoState& state)
 {
@@ -47,12 +42,12 @@ void draw_light(DemoState& state)
         scene::Light& light = state.scene.lights[i];
         ImGui::PushID(int(i));
         ImGui::TextDisabled(i == 0 ? "key light" : i == 1 ? "fill light" : "light %d", int(i) + 1);
-        slider("azimuth", light.from.azimuth_deg, -180, 180, "%.0f°");
-        slider("elevation", light.from.elevation_deg, -89, 89, "%.0f°");
-        slider("strength", light.intensity, 0, 4, "%.2f");
+        draw_slider(scene::light_fields(), "azimuth_deg", light);
+        draw_slider(scene::light_fields(), "elevation_deg", light);
+        draw_slider(scene::light_fields(), "intensity", light);
         ImGui::PopID();
     }
-    slider("exposure", state.scene.exposure_stops, -3, 3, "%+.2f stops");
+    draw_slider(scene::scene_fields(), "exposure_stops", state.scene);
 }
 
 void draw_mode(DemoState& state)

@@ -3,18 +3,13 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "apps/demo/field_slider.hpp"
 #include "apps/demo/ui.hpp"
 #include "wound/healing/healing.hpp"
+#include "wound/synthetic/synthetic.hpp"
 
 namespace demo_command {
 namespace {
-
-bool slider(const char* name, double& value, double low, double high, const char* format,
-            ImGuiSliderFlags flags = 0)
-{
-    return ImGui::SliderScalar(name, ImGuiDataType_Double, &value, &low, &high, format,
-                               flags | ImGuiSliderFlags_AlwaysClamp);
-}
 
 std::string title_of(const scene::Wound& wound, std::size_t index)
 {
@@ -36,13 +31,13 @@ void draw_list(DemoState& state)
 
 void draw_wound(DemoState& state, scene::Wound& wound)
 {
-    slider("width", wound.width_mm, 4, 80, "%.0f mm");
-    slider("roll", wound.roll_deg, -180, 180, "%.0f°");
-    slider("depth", wound.depth_factor, 0, 3, "%.2f x");
+    draw_slider(scene::wound_fields(), "width_mm", wound);
+    draw_slider(scene::wound_fields(), "roll_deg", wound);
+    draw_slider(scene::wound_fields(), "depth_factor", wound);
     if (wound.photo.empty()) {
         if (ImGui::BeginCombo("kind", wound.kind.c_str())) {
-            for (const char* kind : {"abrasion", "laceration", "avulsion"})
-                if (ImGui::Selectable(kind, wound.kind == kind))
+            for (const std::string& kind : wound::shape_names())
+                if (ImGui::Selectable(kind.c_str(), wound.kind == kind))
                     wound.kind = kind;
             ImGui::EndCombo();
         }
@@ -67,22 +62,22 @@ void draw_curve(const DemoState& state, const wound::Healing& healing)
     const float pad = 6 * state.scale;
     const auto place = [&](double day, double ratio) {
         return ImVec2(corner.x + pad + float(day / days) * (width - 2 * pad),
-                      corner.y + pad + float(1 - ratio / wound::kLargestRatio) * (height - 2 * pad));
+                      corner.y + pad + float(1 - ratio / wound::largest_drawn_ratio) * (height - 2 * pad));
     };
     for (const double ratio : {0.0, .5, 1.0})
         list.AddLine(place(0, ratio), place(days, ratio), IM_COL32(255, 255, 255, 24));
     std::vector<ImVec2> open, border;
     for (int i = 0; i <= 96; ++i) {
         const wound::HealingState at = wound::healing_at(healing, days * i / 96);
-        open.push_back(place(at.day, std::min(at.unhealed_ratio, wound::kLargestRatio)));
-        border.push_back(place(at.day, std::min(at.border_ratio, wound::kLargestRatio)));
+        open.push_back(place(at.day, std::min(at.unhealed_ratio, wound::largest_drawn_ratio)));
+        border.push_back(place(at.day, std::min(at.border_ratio, wound::largest_drawn_ratio)));
     }
     list.AddPolyline(border.data(), int(border.size()), IM_COL32(200, 160, 140, 170), 0, 1.2f * state.scale);
     list.AddPolyline(open.data(), int(open.size()), IM_COL32(237, 110, 92, 255), 0, 2 * state.scale);
     if (state.playback.day <= days) {
         const wound::HealingState now = wound::healing_at(healing, state.playback.day);
-        list.AddLine(place(now.day, 0), place(now.day, wound::kLargestRatio), IM_COL32(255, 255, 255, 110));
-        list.AddCircleFilled(place(now.day, std::min(now.unhealed_ratio, wound::kLargestRatio)),
+        list.AddLine(place(now.day, 0), place(now.day, wound::largest_drawn_ratio), IM_COL32(255, 255, 255, 110));
+        list.AddCircleFilled(place(now.day, std::min(now.unhealed_ratio, wound::largest_drawn_ratio)),
                              3.5f * state.scale, IM_COL32(255, 255, 255, 255));
     }
     const std::string closure =
@@ -100,21 +95,21 @@ void draw_healing(DemoState& state, wound::Healing& healing)
 {
     draw_curve(state, healing);
     ImGui::TextDisabled("area: open wound, inside its border");
-    const bool face = healing.model == wound::HealingModel::face;
+    const bool face = healing.model == wound::HealingModel::Face;
     if (ImGui::BeginCombo("closes", face ? "by new skin" : "by contraction")) {
         if (ImGui::Selectable("by new skin", face))
-            healing.model = wound::HealingModel::face;
+            healing.model = wound::HealingModel::Face;
         if (ImGui::Selectable("by contraction", !face))
-            healing.model = wound::HealingModel::contraction;
+            healing.model = wound::HealingModel::Contraction;
         ImGui::EndCombo();
     }
     if (!ImGui::TreeNode("Parameters"))
         return;
-    slider("gamma", healing.curve.gamma, .5, 4, "%.2f");
-    slider("delta", healing.curve.delta, .001, 2, "%.4f", ImGuiSliderFlags_Logarithmic);
-    slider("theta", healing.curve.theta, -.2, .5, "%.3f");
+    draw_slider(scene::healing_fields(), "gamma", healing);
+    draw_slider(scene::healing_fields(), "delta", healing);
+    draw_slider(scene::healing_fields(), "theta", healing);
     if (face)
-        slider("residual", healing.residual_border, 0, 1, "%.2f of the border");
+        draw_slider(scene::healing_fields(), "residual_border", healing);
     ImGui::TreePop();
 }
 

@@ -59,7 +59,7 @@ void fit(const FitCommand& command)
     const std::vector<wound::SeriesFit> fits =
         wound::fit_table(table, command.table,
                          {.robust = command.robust,
-                          .mean = command.mean == "areas" ? wound::MeanOf::areas : wound::MeanOf::ratios});
+                          .mean = command.mean == "areas" ? wound::MeanOf::Areas : wound::MeanOf::Ratios});
     for (const wound::AreaSeries& one : table)
         if (one.days.size() < 2)
             fmt::print("{}: measured on one day only, counted in the means\n", one.name);

@@ -96,16 +96,16 @@ cv::Point2d centroid(const cv::Mat1b& mask)
 void draw_outline(cv::Mat3b& picture, const cv::Mat1b& mask, cv::Point2d shift, double scale,
                   const cv::Scalar& color)
 {
-    constexpr int kShift = 4; // sixteenths of a pixel
+    constexpr int subpixel_bits = 4; // sixteenths of a pixel
     std::vector<std::vector<cv::Point>> curves;
     cv::findContours(mask, curves, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
     for (std::vector<cv::Point>& curve : curves)
         for (cv::Point& p : curve)
-            p = (cv::Point2d(p) + shift + cv::Point2d(.5, .5)) * scale * (1 << kShift);
-    cv::polylines(picture, curves, true, color, 2, cv::LINE_AA, kShift);
+            p = (cv::Point2d(p) + shift + cv::Point2d(.5, .5)) * scale * (1 << subpixel_bits);
+    cv::polylines(picture, curves, true, color, 2, cv::LINE_AA, subpixel_bits);
 }
 
-const cv::Scalar kObserved(255, 255, 255), kPredicted(30, 80, 255);
+const cv::Scalar observed(255, 255, 255), predicted_color(30, 80, 255);
 
 cv::Mat3b draw_day(const PredictedDay& day, int side)
 {
@@ -114,10 +114,10 @@ cv::Mat3b draw_day(const PredictedDay& day, int side)
     cv::resize(day.srgb, picture, {}, scale, scale, scale < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
     if (day.observed.empty())
         return picture;
-    draw_outline(picture, day.observed, {}, scale, kObserved);
+    draw_outline(picture, day.observed, {}, scale, observed);
     if (day.agreement)
         draw_outline(picture, day.predicted, centroid(day.observed) - centroid(day.predicted), scale,
-                     kPredicted);
+                     predicted_color);
     return picture;
 }
 
@@ -218,18 +218,18 @@ json to_json(const Prediction& prediction)
 
 cv::Mat3b draw_prediction(const Prediction& prediction)
 {
-    constexpr int kColumns = 8, kSide = 200, kGap = 6, kTitle = 22; // pixels
+    constexpr int column_count = 8, map_side = 200, gap_px = 6, title_height = 22; // pixels
     const int count = static_cast<int>(prediction.days.size());
-    const int columns = std::min(count, kColumns), rows = (count + columns - 1) / columns;
-    cv::Mat3b page(kTitle + rows * (kSide + kTitle + kGap), kGap + columns * (kSide + kGap),
+    const int columns = std::min(count, column_count), rows = (count + columns - 1) / columns;
+    cv::Mat3b page(title_height + rows * (map_side + title_height + gap_px), gap_px + columns * (map_side + gap_px),
                    cv::Vec3b(255, 255, 255));
-    base::draw_text(page, "white: seen", {kGap, 16}, {120, 120, 120});
-    base::draw_text(page, "blue: predicted", {kGap + 110, 16}, kPredicted);
+    base::draw_text(page, "white: seen", {gap_px, 16}, {120, 120, 120});
+    base::draw_text(page, "blue: predicted", {gap_px + 110, 16}, predicted_color);
     for (int i = 0; i < count; ++i) {
         const PredictedDay& day = prediction.days[static_cast<std::size_t>(i)];
-        const cv::Point at(kGap + i % columns * (kSide + kGap),
-                           2 * kTitle + i / columns * (kSide + kTitle + kGap));
-        const cv::Mat3b picture = draw_day(day, kSide);
+        const cv::Point at(gap_px + i % columns * (map_side + gap_px),
+                           2 * title_height + i / columns * (map_side + title_height + gap_px));
+        const cv::Mat3b picture = draw_day(day, map_side);
         picture.copyTo(page(cv::Rect(at, picture.size())));
         std::string title = fmt::format("day {:g}", day.day);
         if (day.agreement)

@@ -124,17 +124,17 @@ void add_light_options(CLI::App& command, ReflectOptions& options)
             },
             "Diffuse Fresnel reflectance of the analytic models: exact (default) or polynomial")
         ->check(CLI::IsMember({"exact", "polynomial"}));
-    optics::ReflectanceOptions& level = options.reflectance_options;
-    command.add_option("--photons", level.photons, "Photons of monte-carlo; a standard error takes two")
+    optics::ReflectanceOptions& model = options.reflectance_options;
+    command.add_option("--photons", model.photons, "Photons of monte-carlo; a standard error takes two")
         ->transform(base::whole_number_from(2, 1e10))
         ->capture_default_str();
-    command.add_option("--seed", level.seed, "Seed of monte-carlo")
+    command.add_option("--seed", model.seed, "Seed of monte-carlo")
         ->transform(base::whole_number_from(0, 4294967295))
         ->capture_default_str();
-    command.add_option("--threads", level.threads, "Threads of monte-carlo; 0: one per core")
+    command.add_option("--threads", model.threads, "Threads of monte-carlo; 0: one per core")
         ->transform(base::whole_number_from(0, 1024))
         ->capture_default_str();
-    command.add_option("--angles", level.angles, "Angles per panel of adding-doubling")
+    command.add_option("--angles", model.angles, "Angles per panel of adding-doubling")
         ->transform(base::whole_number_from(2, 64))
         ->capture_default_str();
     command

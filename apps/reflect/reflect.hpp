@@ -1,5 +1,5 @@
-// `cicatrix reflect TISSUE.json`: what layered tissue reflects, transmits and absorbs, by any level of the
-// ladder.
+// `cicatrix reflect TISSUE.json`: what layered tissue reflects, transmits and absorbs, by any reflectance
+// model.
 #pragma once
 #include <iosfwd>
 #include <string>

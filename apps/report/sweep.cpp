@@ -220,7 +220,7 @@ Steps points(const scene::Scene& scene, const gpu::Device& device, const stage::
         solving.ms.push_back(base::spread_of(times).value());
         prepared.push_back(wound);
     }
-    for (const wound::WarpModel level : {wound::WarpModel::grid, wound::WarpModel::dense})
+    for (const wound::WarpModel level : {wound::WarpModel::Grid, wound::WarpModel::Dense})
         for (const auto& wound : prepared)
             steps.cases.push_back({"", "",
                                    [=](graph::Graph& graph, double position) {

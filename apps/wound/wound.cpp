@@ -38,7 +38,7 @@ void show_wound(const WoundCommand& command)
     preparation.control_spacing = 2 * command.spacing; // a patch is 2 patch units wide
     const std::vector<wound::PreparedWound> all = wound::prepare_all(photograph, preparation);
     wound::Healing healing;
-    healing.model = command.model == "face" ? wound::HealingModel::face : wound::HealingModel::contraction;
+    healing.model = command.model == "face" ? wound::HealingModel::Face : wound::HealingModel::Contraction;
     for (std::size_t i = 0; i < all.size(); ++i) // the largest first; only the others carry a number
     {
         const std::string suffix = i == 0 ? "" : fmt::format("_{}", i + 1);

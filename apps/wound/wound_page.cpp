@@ -17,24 +17,24 @@ namespace wound_command {
 
 namespace {
 
-constexpr int kTile = 264, kGap = 8, kColumns = 6, kTitle = 24; // pixels
-constexpr int kWidth = kColumns * (kTile + kGap) + kGap;
-constexpr int kChart = 330;
-constexpr std::array kRatios{1., .8, .6, .4, .2, .05};
-constexpr double kShownRatio = .4; // of the displacements and the grid: the paper's Figure 4
-const cv::Scalar kPaper(255, 255, 255), kBorder(0, 150, 70), kPoint(200, 30, 30), kArrow(20, 60, 200);
+constexpr int tile_side = 264, gap_px = 8, column_count = 6, title_height = 24; // pixels
+constexpr int page_width = column_count * (tile_side + gap_px) + gap_px;
+constexpr int chart_height = 330;
+constexpr std::array shown_ratios{1., .8, .6, .4, .2, .05};
+constexpr double shown_ratio = .4; // of the displacements and the grid: the paper's Figure 4
+const cv::Scalar paper_color(255, 255, 255), border_color(0, 150, 70), point_color(200, 30, 30), arrow(20, 60, 200);
 
 /// Page position of a tile.
 cv::Rect tile(int row, int column)
 {
-    return {kGap + column * (kTile + kGap), kTitle + row * (kTile + kTitle + kGap), kTile, kTile};
+    return {gap_px + column * (tile_side + gap_px), title_height + row * (tile_side + title_height + gap_px), tile_side, tile_side};
 }
 
 void put(cv::Mat3b& page, const cv::Mat3b& picture, int row, int column, const std::string& title)
 {
     const cv::Rect place = tile(row, column);
     cv::Mat3b scaled;
-    cv::resize(picture, scaled, place.size(), 0, 0, picture.cols > kTile ? cv::INTER_AREA : cv::INTER_LINEAR);
+    cv::resize(picture, scaled, place.size(), 0, 0, picture.cols > tile_side ? cv::INTER_AREA : cv::INTER_LINEAR);
     scaled.copyTo(page(place));
     base::draw_text(page, title, {place.x, place.y - 7});
 }
@@ -62,11 +62,11 @@ cv::Mat3b photograph_with_mask(const wound::Photograph& photograph, const wound:
     const int thickness = std::max(1, side / 200);
     std::vector<std::vector<cv::Point>> curves;
     cv::findContours(wound.photo_mask, curves, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
-    cv::drawContours(square, curves, -1, kBorder, thickness);
+    cv::drawContours(square, curves, -1, border_color, thickness);
     const cv::Point2d half(wound.photo_side / 2, wound.photo_side / 2);
-    cv::rectangle(square, cv::Point(wound.photo_center - half), cv::Point(wound.photo_center + half), kArrow,
+    cv::rectangle(square, cv::Point(wound.photo_center - half), cv::Point(wound.photo_center + half), arrow,
                   thickness);
-    cv::drawMarker(square, wound.photo_center, kPoint, cv::MARKER_CROSS, side / 20, thickness);
+    cv::drawMarker(square, wound.photo_center, point_color, cv::MARKER_CROSS, side / 20, thickness);
     return square;
 }
 
@@ -74,34 +74,34 @@ cv::Mat3b photograph_with_mask(const wound::Photograph& photograph, const wound:
 cv::Mat3b displacements(const cv::Mat3b& color, const wound::PreparedWound& wound)
 {
     cv::Mat3b picture = color.clone();
-    outline(picture, wound.border, kBorder);
+    outline(picture, wound.border, border_color);
     for (cv::Point2d from : wound.control_points) {
-        const cv::Point2d to = from - (from - wound.centroid) * (1 - std::sqrt(kShownRatio));
-        cv::line(picture, sixteenths(from, picture.cols), sixteenths(to, picture.cols), kArrow, 1,
+        const cv::Point2d to = from - (from - wound.centroid) * (1 - std::sqrt(shown_ratio));
+        cv::line(picture, sixteenths(from, picture.cols), sixteenths(to, picture.cols), arrow, 1,
                  cv::LINE_AA, 4);
-        cv::circle(picture, sixteenths(from, picture.cols), 4 * 16, kPoint, cv::FILLED, cv::LINE_AA, 4);
+        cv::circle(picture, sixteenths(from, picture.cols), 4 * 16, point_color, cv::FILLED, cv::LINE_AA, 4);
     }
-    cv::circle(picture, sixteenths(wound.centroid, picture.cols), 6 * 16, kPoint, 2, cv::LINE_AA, 4);
+    cv::circle(picture, sixteenths(wound.centroid, picture.cols), 6 * 16, point_color, 2, cv::LINE_AA, 4);
     return picture;
 }
 
 /// Today's image of a square grid drawn on the skin on day 0, and the border's.
 cv::Mat3b warped_grid(const wound::Warp& warp, const wound::PreparedWound& wound)
 {
-    constexpr int kSize = 528;
-    constexpr double kLines = 12; // per patch unit
-    const cv::Mat2d back = wound::backward_map(warp, kSize);
-    cv::Mat3b picture(kSize, kSize, cv::Vec3b(255, 255, 255));
-    const auto cell = [&](int j, int i, int axis) { return std::floor(back(j, i)[axis] * kLines); };
-    for (int j = 0; j + 1 < kSize; ++j)
-        for (int i = 0; i + 1 < kSize; ++i)
+    constexpr int map_size = 528;
+    constexpr double lines = 12; // per patch unit
+    const cv::Mat2d back = wound::backward_map(warp, map_size);
+    cv::Mat3b picture(map_size, map_size, cv::Vec3b(255, 255, 255));
+    const auto cell = [&](int j, int i, int axis) { return std::floor(back(j, i)[axis] * lines); };
+    for (int j = 0; j + 1 < map_size; ++j)
+        for (int i = 0; i + 1 < map_size; ++i)
             for (int axis : {0, 1})
                 if (cell(j, i, axis) != cell(j, i + 1, axis) || cell(j, i, axis) != cell(j + 1, i, axis))
                     picture(j, i) = cv::Vec3b(70, 70, 70);
     std::vector<cv::Point2d> today;
     for (cv::Point2d p : wound.border)
         today.push_back(wound.centroid + (p - wound.centroid) * warp.scale);
-    outline(picture, today, kBorder);
+    outline(picture, today, border_color);
     return picture;
 }
 
@@ -111,7 +111,7 @@ cv::Mat3b plainly_scaled(const cv::Mat3b& color, double ratio)
     const double scale = std::sqrt(ratio), middle = (color.cols - 1) / 2.;
     cv::Mat3b scaled;
     cv::warpAffine(color, scaled, cv::Matx23d(scale, 0, middle * (1 - scale), 0, scale, middle * (1 - scale)),
-                   color.size(), cv::INTER_AREA, cv::BORDER_CONSTANT, kPaper);
+                   color.size(), cv::INTER_AREA, cv::BORDER_CONSTANT, paper_color);
     return scaled;
 }
 
@@ -168,10 +168,10 @@ void draw_ratios(cv::Mat3b& page, cv::Rect area, const wound::Healing& healing)
     }
     base::Plot plot(page, area, {0, last}, {0, 1.08 * highest}, "share of day 0", "days");
     plot.line(depth, {150, 150, 150}, 1);
-    plot.line(border, kBorder);
-    plot.line(bed, kPoint);
-    plot.legend("area inside the border", kBorder);
-    plot.legend("open bed, r", kPoint);
+    plot.line(border, border_color);
+    plot.line(bed, point_color);
+    plot.legend("area inside the border", border_color);
+    plot.legend("open bed, r", point_color);
     plot.legend("depth, sqrt r", {150, 150, 150});
 }
 
@@ -180,15 +180,15 @@ void draw_ratios(cv::Mat3b& page, cv::Rect area, const wound::Healing& healing)
 cv::Mat3b draw_wound_page(const wound::Photograph& photograph, const wound::PreparedWound& wound,
                           const wound::Healing& healing)
 {
-    cv::Mat3b page(kTitle + 3 * (kTile + kTitle + kGap) + kChart, kWidth, cv::Vec3b(255, 255, 255));
+    cv::Mat3b page(title_height + 3 * (tile_side + title_height + gap_px) + chart_height, page_width, cv::Vec3b(255, 255, 255));
     const cv::Mat3b color = base::srgb_from_linear(wound.patch.color);
-    const wound::Warp shown = wound::make_warp(wound.flow, kShownRatio);
+    const wound::Warp shown = wound::make_warp(wound.flow, shown_ratio);
     int column = 0;
     if (!wound.photo_mask.empty())
         put(page, photograph_with_mask(photograph, wound), 0, column++, "photograph, mask, patch");
     put(page, displacements(color, wound), 0, column++,
-        fmt::format("{} control points, r = {}", wound.control_points.size(), kShownRatio));
-    put(page, warped_grid(shown, wound), 0, column++, fmt::format("skin's grid at r = {}", kShownRatio));
+        fmt::format("{} control points, r = {}", wound.control_points.size(), shown_ratio));
+    put(page, warped_grid(shown, wound), 0, column++, fmt::format("skin's grid at r = {}", shown_ratio));
     double deepest = 0;
     cv::minMaxLoc(wound.patch.depth_mm, nullptr, &deepest);
     put(page, depth_picture(wound.patch.depth_mm), 0, column++,
@@ -198,15 +198,15 @@ cv::Mat3b draw_wound_page(const wound::Photograph& photograph, const wound::Prep
     cv::Mat3b opacity_picture;
     cv::cvtColor(opacity, opacity_picture, cv::COLOR_GRAY2RGB);
     put(page, opacity_picture, 0, column, "opacity over the face");
-    for (std::size_t i = 0; i < kRatios.size(); ++i) {
-        const cv::Mat3b warped = wound::warp_image(color, wound::make_warp(wound.flow, kRatios[i]));
-        put(page, warped, 1, static_cast<int>(i), fmt::format("warped, r = {}", kRatios[i]));
-        put(page, plainly_scaled(color, kRatios[i]), 2, static_cast<int>(i),
-            fmt::format("plainly scaled, r = {}", kRatios[i]));
+    for (std::size_t i = 0; i < shown_ratios.size(); ++i) {
+        const cv::Mat3b warped = wound::warp_image(color, wound::make_warp(wound.flow, shown_ratios[i]));
+        put(page, warped, 1, static_cast<int>(i), fmt::format("warped, r = {}", shown_ratios[i]));
+        put(page, plainly_scaled(color, shown_ratios[i]), 2, static_cast<int>(i),
+            fmt::format("plainly scaled, r = {}", shown_ratios[i]));
     }
-    const int top = page.rows - kChart;
-    draw_profiles(page, {0, top, kWidth / 2, kChart}, wound, healing);
-    draw_ratios(page, {kWidth / 2, top, kWidth / 2, kChart}, healing);
+    const int top = page.rows - chart_height;
+    draw_profiles(page, {0, top, page_width / 2, chart_height}, wound, healing);
+    draw_ratios(page, {page_width / 2, top, page_width / 2, chart_height}, healing);
     return page;
 }
 

@@ -78,7 +78,7 @@ std::vector<std::string> touched_names(const Graph& graph, const Pass& pass, boo
     return names;
 }
 
-std::string quoted(std::string_view text)
+std::string in_dot_quotes(std::string_view text)
 {
     std::string result = "\"";
     for (const char c : text) {
@@ -132,13 +132,13 @@ std::string plan_dot(const Graph& graph, const Plan& plan)
         const char* style = planned.state == PassState::Run       ? "filled"
                             : planned.state == PassState::Skipped ? "dashed"
                                                                   : "dotted";
-        text += fmt::format("  {} [shape=box, style={}, label={}];\n", quoted("pass " + planned.name), style,
-                            quoted(planned.name + "\n" + name_of(planned.state) + ": " + planned.reason));
+        text += fmt::format("  {} [shape=box, style={}, label={}];\n", in_dot_quotes("pass " + planned.name), style,
+                            in_dot_quotes(planned.name + "\n" + name_of(planned.state) + ": " + planned.reason));
     }
     for (const Graph::Image& image : graph.images)
-        text += fmt::format("  {} [shape=ellipse{}, label={}];\n", quoted("image " + image.name),
+        text += fmt::format("  {} [shape=ellipse{}, label={}];\n", in_dot_quotes("image " + image.name),
                             image.external ? ", style=bold" : "",
-                            quoted(image.name + "\n" + desc_text(image.desc)));
+                            in_dot_quotes(image.name + "\n" + desc_text(image.desc)));
     for (const PassPlan& planned : plan.passes) {
         std::set<std::uint32_t> waiting;
         for (const ImageBarrier& barrier : planned.barriers)
@@ -148,17 +148,17 @@ std::string plan_dot(const Graph& graph, const Plan& plan)
             const bool writes = access_row(access.usage).writes;
             if (!drawn.emplace(access.image.index, writes).second)
                 continue;
-            const std::string image = quoted("image " + graph.images[access.image.index].name);
-            const std::string pass = quoted("pass " + planned.name);
+            const std::string image = in_dot_quotes("image " + graph.images[access.image.index].name);
+            const std::string pass = in_dot_quotes("pass " + planned.name);
             text += fmt::format("  {} -> {}{};\n", writes ? pass : image, writes ? image : pass,
                                 waiting.contains(access.image.index) ? " [label=barrier]" : "");
         }
     }
     for (const Graph::Readback& readback : graph.readbacks)
-        text += fmt::format("  {} -> {};\n", quoted("image " + graph.images[readback.image.index].name),
-                            quoted("readback " + readback.name));
+        text += fmt::format("  {} -> {};\n", in_dot_quotes("image " + graph.images[readback.image.index].name),
+                            in_dot_quotes("readback " + readback.name));
     for (const ImageId id : graph.presented)
-        text += fmt::format("  {} -> window;\n", quoted("image " + graph.images[id.index].name));
+        text += fmt::format("  {} -> window;\n", in_dot_quotes("image " + graph.images[id.index].name));
     return text + "}\n";
 }
 

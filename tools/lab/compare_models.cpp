@@ -1,4 +1,4 @@
-// Every level of the ladder against the photon walk: error and cost; the table's size; the presets against
+// Every model of the ladder against the photon walk: error and cost; the table's size; the presets against
 // the skin they stand for.
 #include <array>
 #include <chrono>
@@ -43,15 +43,15 @@ double rms(const base::Color& difference)
     return cv::norm(difference) / std::sqrt(3.0);
 }
 
-// The colour and what one channel costs; cheap levels are repeated until the clock can see them.
-Measured measure(const optics::SkinLayers& tissue, optics::ReflectanceModel level,
+// The colour and what one channel costs; cheap models are repeated until the clock can see them.
+Measured measure(const optics::SkinLayers& tissue, optics::ReflectanceModel model,
                  const optics::ReflectanceOptions& options)
 {
     const auto start = std::chrono::steady_clock::now();
-    Measured result{.model = level, .color = optics::tissue_color(tissue, level, options)};
+    Measured result{.model = model, .color = optics::tissue_color(tissue, model, options)};
     int runs = 1;
-    while (level != optics::ReflectanceModel::MonteCarlo && seconds_since(start) < 0.02 && ++runs)
-        result.color = optics::tissue_color(tissue, level, options);
+    while (model != optics::ReflectanceModel::MonteCarlo && seconds_since(start) < 0.02 && ++runs)
+        result.color = optics::tissue_color(tissue, model, options);
     result.seconds = seconds_since(start) / runs / static_cast<double>(tissue.channels());
     return result;
 }
@@ -81,9 +81,9 @@ std::vector<MeasuredStack> measure_models(const optics::ReflectanceOptions& opti
         walk.photons = std::max<std::uint64_t>(1000, options.photons * 3 / tissue.channels());
         const Measured reference = measure(tissue, optics::ReflectanceModel::MonteCarlo, walk);
         MeasuredStack stack{stack_name, {}};
-        for (optics::ReflectanceModel level : optics::all_reflectance_models()) {
+        for (optics::ReflectanceModel model : optics::all_reflectance_models()) {
             Measured m =
-                level == optics::ReflectanceModel::MonteCarlo ? reference : measure(tissue, level, options);
+                model == optics::ReflectanceModel::MonteCarlo ? reference : measure(tissue, model, options);
             m.rms_error = rms(m.color - reference.color);
             m.delta_e =
                 base::delta_e2000(base::lab_from_linear(m.color), base::lab_from_linear(reference.color));
@@ -116,9 +116,9 @@ std::vector<Place> random_places(unsigned seed, shared::uint count, const shared
     return places;
 }
 
-// The tissue of each place, on its very day, by a level.
+// The tissue of each place, on its very day, by a model.
 std::vector<base::Color> direct_colors(const optics::HealingTissue& tissue, const std::vector<Place>& places,
-                                       optics::ReflectanceModel level, optics::ReflectanceOptions options)
+                                       optics::ReflectanceModel model, optics::ReflectanceOptions options)
 {
     std::vector<base::Color> colors;
     for (const Place& place : places) {
@@ -126,7 +126,7 @@ std::vector<base::Color> direct_colors(const optics::HealingTissue& tissue, cons
             optics::layers_at(wound::tissue_on(tissue, place.part, place.day), place.depth);
         optics::ReflectanceOptions shared_photons = options; // a spectrum's channels share them
         shared_photons.photons = std::max<std::uint64_t>(1000, options.photons * 3 / layers.channels());
-        colors.push_back(optics::tissue_color(layers, level, shared_photons));
+        colors.push_back(optics::tissue_color(layers, model, shared_photons));
     }
     return colors;
 }
@@ -210,7 +210,7 @@ ordered_json measure_table_against_walk(const TableOptions& options)
             {"worst", error.worst}};
 }
 
-/// Colour of a skin preset beside the skin it was fitted to, by level, and what the three-wavelength shortcut
+/// Colour of a skin preset beside the skin it was fitted to, by model, and what the three-wavelength shortcut
 /// costs.
 ordered_json measure_presets()
 {
@@ -221,17 +221,17 @@ ordered_json measure_presets()
                            {"site", measured.site},
                            {"source", measured.source},
                            {"measured_lab", list(measured.lab)}};
-        for (const optics::ReflectanceModel level :
+        for (const optics::ReflectanceModel model :
              {optics::ReflectanceModel::AddingDoubling, optics::ReflectanceModel::Calibrated})
         {
-            const std::vector<double> channels = optics::diffuse_color(skin, level);
+            const std::vector<double> channels = optics::diffuse_color(skin, model);
             optics::Spectrum spectrum{};
             std::ranges::copy(channels, spectrum.begin());
             const base::Lab lab = optics::lab_10_degrees(spectrum);
-            entry[std::string(optics::name(level))] = {{"lab", list(lab)},
+            entry[std::string(optics::name(model))] = {{"lab", list(lab)},
                                                        {"delta_e2000", base::delta_e2000(lab, measured.lab)}};
             const base::Color shortcut(spectrum[21], spectrum[14], spectrum[5]); // 610, 540, 450 nm
-            if (level == optics::ReflectanceModel::AddingDoubling)
+            if (model == optics::ReflectanceModel::AddingDoubling)
                 entry["three_wavelengths_delta_e2000"] = base::delta_e2000(
                     base::lab_from_linear(shortcut), base::lab_from_linear(optics::linear_rgb(spectrum)));
         }
@@ -246,14 +246,14 @@ ordered_json ladder_json(const std::vector<MeasuredStack>& ladder)
 {
     ordered_json stacks = ordered_json::array();
     for (const MeasuredStack& stack : ladder) {
-        ordered_json levels = ordered_json::array();
+        ordered_json models = ordered_json::array();
         for (const Measured& m : stack.models)
-            levels.push_back({{"level", optics::name(m.model)},
+            models.push_back({{"model", optics::name(m.model)},
                               {"rgb", list(m.color)},
                               {"rms_error", m.rms_error},
                               {"delta_e2000", m.delta_e},
                               {"microseconds", 1e6 * m.seconds}});
-        stacks.push_back({{"stack", stack.name}, {"levels", levels}});
+        stacks.push_back({{"stack", stack.name}, {"models", models}});
     }
     return stacks;
 }
@@ -261,7 +261,7 @@ ordered_json ladder_json(const std::vector<MeasuredStack>& ladder)
 void print_ladder(const std::vector<MeasuredStack>& ladder, std::ostream& out)
 {
     for (const MeasuredStack& stack : ladder) {
-        fmt::print(out, "{}\n  {:17} {:>7} {:>7} {:>7}  {:>9} {:>7} {:>12}\n", stack.name, "level", "R", "G",
+        fmt::print(out, "{}\n  {:17} {:>7} {:>7} {:>7}  {:>9} {:>7} {:>12}\n", stack.name, "model", "R", "G",
                    "B", "rms error", "dE2000", "us/channel");
         for (const Measured& m : stack.models)
             fmt::print(out, "  {:17} {:7.3f} {:7.3f} {:7.3f}  {:9.4f} {:7.2f} {:12.2f}\n",
@@ -300,7 +300,7 @@ void print_table_sizes(const ordered_json& sizes, std::ostream& out)
     }
 }
 
-// One point for each level: error over all stacks against mean cost. The reference has no error to show.
+// One point for each model: error over all stacks against mean cost. The reference has no error to show.
 std::vector<PlotPoint> frontier(const std::vector<MeasuredStack>& ladder)
 {
     std::vector<PlotPoint> points;

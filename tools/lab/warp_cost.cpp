@@ -47,20 +47,20 @@ void measure_models(stage::Renderer& renderer, int rounds, base::Progress& progr
 {
     constexpr int size = 256; // the reference takes seconds per megatexel on a software rasteriser
     constexpr std::array<double, 4> ratios{.6, .2, .05, .01};
-    constexpr std::array levels{wound::WarpModel::radial, wound::WarpModel::grid, wound::WarpModel::dense,
-                                wound::WarpModel::composed};
-    const wound::PreparedWound wound = matched(wound::WoundShape::abrasion, size);
+    constexpr std::array models{wound::WarpModel::Radial, wound::WarpModel::Grid, wound::WarpModel::Dense,
+                                wound::WarpModel::Composed};
+    const wound::PreparedWound wound = matched(wound::WoundShape::Abrasion, size);
     const passes::WoundMaps maps = passes::upload_wound(renderer.device, wound.patch);
     wound::Healing healing;
-    healing.model = wound::HealingModel::contraction; // one warp, not two
+    healing.model = wound::HealingModel::Contraction; // one warp, not two
     fmt::print("| r | radial | grid | dense | composed |\n|---|---|---|---|---|\n");
     for (const double ratio : ratios) {
-        std::array<std::vector<double>, levels.size()> ms;
-        std::array<wound::WoundDay, levels.size()> days;
-        for (std::size_t i = 0; i < levels.size(); ++i)
-            days[i] = wound::wound_at(wound, healing, wound::day_below(healing.curve, ratio), levels[i]);
+        std::array<std::vector<double>, models.size()> ms;
+        std::array<wound::WoundDay, models.size()> days;
+        for (std::size_t i = 0; i < models.size(); ++i)
+            days[i] = wound::wound_at(wound, healing, wound::day_below(healing.curve, ratio), models[i]);
         for (int round = -1; round < rounds; ++round)
-            for (std::size_t i = 0; i < levels.size(); ++i) {
+            for (std::size_t i = 0; i < models.size(); ++i) {
                 progress.show(fmt::format("r {:g}", ratio));
                 if (const Milliseconds once = run_once(renderer, maps, days[i]); round >= 0)
                     ms[i].push_back(once.texture);
@@ -77,13 +77,13 @@ void measure_region(stage::Renderer& renderer, int rounds, base::Progress& progr
 {
     fmt::print("\n| default wound | healing | region | texels | patch, ms | region, ms | ratio |\n"
                "|---|---|---|---|---|---|---|\n");
-    constexpr std::array shapes{std::pair("abrasion", wound::WoundShape::abrasion),
-                                std::pair("laceration", wound::WoundShape::laceration),
-                                std::pair("avulsion", wound::WoundShape::avulsion)};
+    constexpr std::array shapes{std::pair("abrasion", wound::WoundShape::Abrasion),
+                                std::pair("laceration", wound::WoundShape::Laceration),
+                                std::pair("avulsion", wound::WoundShape::Avulsion)};
     for (const auto& [name, shape] : shapes) {
         const wound::PreparedWound wound = matched(shape, 512);
         passes::WoundMaps maps = passes::upload_wound(renderer.device, wound.patch);
-        for (const wound::HealingModel model : {wound::HealingModel::face, wound::HealingModel::contraction})
+        for (const wound::HealingModel model : {wound::HealingModel::Face, wound::HealingModel::Contraction})
         {
             wound::Healing healing;
             healing.model = model;
@@ -99,7 +99,7 @@ void measure_region(stage::Renderer& renderer, int rounds, base::Progress& progr
                 }
             progress.clear();
             fmt::print("| {} | {} | {} x {} | {:.0f} % | {:.1f} | {:.1f} | {:.2f} |\n", name,
-                       model == wound::HealingModel::face ? "face" : "contraction", regions[1].width,
+                       model == wound::HealingModel::Face ? "face" : "contraction", regions[1].width,
                        regions[1].height, 100. * regions[1].area() / regions[0].area(), base::median(ms[0]),
                        base::median(ms[1]), base::median(ms[1]) / base::median(ms[0]));
         }

@@ -11,16 +11,16 @@ namespace lab {
 
 namespace {
 
-constexpr int kTexels = 512;
-constexpr int kSamples = 96; // a side, of the lattices on which maps are compared and timed
+constexpr int texels_a_side = 512;
+constexpr int sample_count = 96; // a side, of the lattices on which maps are compared and timed
 
 template <typename Radius>
 wound::Polyline polar(Radius radius, cv::Point2d center = {})
 {
-    constexpr int kPoints = 720;
+    constexpr int point_count = 720;
     wound::Polyline curve;
-    for (int i = 0; i < kPoints; ++i) {
-        const double angle = -2 * std::numbers::pi * i / kPoints; // counter-clockwise on screen
+    for (int i = 0; i < point_count; ++i) {
+        const double angle = -2 * std::numbers::pi * i / point_count; // counter-clockwise on screen
         curve.push_back(center + radius(angle) * cv::Point2d(std::cos(angle), std::sin(angle)));
     }
     return curve;
@@ -30,9 +30,9 @@ wound::Polyline crescent()
 {
     wound::Polyline curve;
     const auto arc = [&curve](double radius, double shift, double from, double to) {
-        constexpr int kPoints = 300;
-        for (int i = 0; i <= kPoints; ++i) {
-            const double angle = std::lerp(from, to, static_cast<double>(i) / kPoints);
+        constexpr int point_count = 300;
+        for (int i = 0; i <= point_count; ++i) {
+            const double angle = std::lerp(from, to, static_cast<double>(i) / point_count);
             curve.emplace_back(shift + radius * std::cos(angle), radius * std::sin(angle));
         }
     };
@@ -53,14 +53,14 @@ wound::Polyline cut()
 /// A disk that the photograph's edge cuts in half.
 wound::Polyline half_disk()
 {
-    constexpr int kPoints = 300;
+    constexpr int point_count = 300;
     wound::Polyline curve;
-    for (int i = 0; i <= kPoints; ++i) {
-        const double angle = std::numbers::pi * (.5 - static_cast<double>(i) / kPoints);
+    for (int i = 0; i <= point_count; ++i) {
+        const double angle = std::numbers::pi * (.5 - static_cast<double>(i) / point_count);
         curve.emplace_back(.45 * std::cos(angle) - .19, .45 * std::sin(angle));
     }
-    for (int i = 1; i < kPoints; ++i)
-        curve.emplace_back(-.19, -.45 + .9 * i / kPoints);
+    for (int i = 1; i < point_count; ++i)
+        curve.emplace_back(-.19, -.45 + .9 * i / point_count);
     return curve;
 }
 
@@ -83,14 +83,14 @@ double cpu_ms(Work work)
     return 1000. * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-/// Day-0 points of a lattice of kSamples x kSamples over the square of half the side `reach` about `center`.
+/// Day-0 points of a lattice of sample_count x sample_count over the square of half the side `reach` about `center`.
 cv::Mat2d lattice(const wound::Warp& warp, cv::Point2d center, double reach)
 {
-    cv::Mat2d map(kSamples, kSamples);
-    for (int j = 0; j < kSamples; ++j)
-        for (int i = 0; i < kSamples; ++i)
+    cv::Mat2d map(sample_count, sample_count);
+    for (int j = 0; j < sample_count; ++j)
+        for (int i = 0; i < sample_count; ++i)
             map(j, i) = warp.apply(
-                center + reach * cv::Point2d((i + .5) * 2 / kSamples - 1, (j + .5) * 2 / kSamples - 1));
+                center + reach * cv::Point2d((i + .5) * 2 / sample_count - 1, (j + .5) * 2 / sample_count - 1));
     return map;
 }
 
@@ -98,34 +98,34 @@ cv::Mat2d lattice(const wound::Warp& warp, cv::Point2d center, double reach)
 double largest_distance(const cv::Mat2d& a, const cv::Mat2d& b, cv::Point2d center, double reach)
 {
     double largest = 0;
-    for (int j = 0; j < kSamples; ++j)
-        for (int i = 0; i < kSamples; ++i) {
+    for (int j = 0; j < sample_count; ++j)
+        for (int i = 0; i < sample_count; ++i) {
             const cv::Point2d p =
-                center + reach * cv::Point2d((i + .5) * 2 / kSamples - 1, (j + .5) * 2 / kSamples - 1);
+                center + reach * cv::Point2d((i + .5) * 2 / sample_count - 1, (j + .5) * 2 / sample_count - 1);
             if (std::max(std::abs(p.x), std::abs(p.y)) < 1)
-                largest = std::max(largest, cv::norm(a(j, i) - b(j, i)) * kTexels / 2);
+                largest = std::max(largest, cv::norm(a(j, i) - b(j, i)) * texels_a_side / 2);
         }
     return largest;
 }
 
-/// Every model at one ratio, timed in turn, the least of kRounds; cheap maps are timed more often.
+/// Every model at one ratio, timed in turn, the least of rounds; cheap maps are timed more often.
 std::vector<LadderRow> measure(const LadderShape& shape, const wound::ContractionFlow& flow, double ratio)
 {
-    constexpr int kRounds = 5;
-    constexpr std::size_t kCount = std::size(kWarpModels);
-    std::array<wound::Warp, kCount> warps;
-    std::array<cv::Mat2d, kCount> maps;
+    constexpr int rounds = 5;
+    constexpr std::size_t model_count = std::size(warp_models);
+    std::array<wound::Warp, model_count> warps;
+    std::array<cv::Mat2d, model_count> maps;
     std::vector<LadderRow> rows;
-    for (const wound::WarpModel model : kWarpModels)
+    for (const wound::WarpModel model : warp_models)
         rows.push_back({shape.name, model, ratio, 0, 0, 0, 0, 0, 1e300, 1e300});
-    for (int round = 0; round < kRounds; ++round)
-        for (std::size_t i = 0; i < kCount; ++i) {
+    for (int round = 0; round < rounds; ++round)
+        for (std::size_t i = 0; i < model_count; ++i) {
             LadderRow& row = rows[i];
             row.make_ms =
-                std::min(row.make_ms, cpu_ms([&] { warps[i] = make_warp(flow, ratio, kWarpModels[i]); }));
+                std::min(row.make_ms, cpu_ms([&] { warps[i] = make_warp(flow, ratio, warp_models[i]); }));
             for (double spent_ms = 0; spent_ms < 10;) {
                 const double once_ms = cpu_ms([&] { maps[i] = lattice(warps[i], {}, 1); });
-                row.ms_per_megatexel = std::min(row.ms_per_megatexel, once_ms * 1e6 / (kSamples * kSamples));
+                row.ms_per_megatexel = std::min(row.ms_per_megatexel, once_ms * 1e6 / (sample_count * sample_count));
                 spent_ms += once_ms;
             }
         }
@@ -135,9 +135,9 @@ std::vector<LadderRow> measure(const LadderShape& shape, const wound::Contractio
     for (cv::Point2d p : shape.border)
         reach = std::max(reach, cv::norm(p - shape.centroid));
     reach *= 2 * std::sqrt(ratio);
-    static_assert(kWarpModels[kCount - 1] == wound::WarpModel::composed);
+    static_assert(warp_models[model_count - 1] == wound::WarpModel::Composed);
     const cv::Mat2d reference = maps.back(), near = lattice(warps.back(), shape.centroid, reach);
-    for (std::size_t i = 0; i < kCount; ++i) {
+    for (std::size_t i = 0; i < model_count; ++i) {
         LadderRow& row = rows[i];
         row.near_error_texels =
             largest_distance(lattice(warps[i], shape.centroid, reach), near, shape.centroid, reach);
@@ -146,8 +146,8 @@ std::vector<LadderRow> measure(const LadderShape& shape, const wound::Contractio
                              (ratio * wound::signed_area(shape.border)) -
                          1;
         // The thin-plate models cost seconds per check at full size; a quarter of it finds the same folds.
-        const bool slow = row.model == wound::WarpModel::dense || row.model == wound::WarpModel::composed;
-        const wound::FoldCheck check = wound::check_folds(warps[i], slow ? kTexels / 4 : kTexels);
+        const bool slow = row.model == wound::WarpModel::Dense || row.model == wound::WarpModel::Composed;
+        const wound::FoldCheck check = wound::check_folds(warps[i], slow ? texels_a_side / 4 : texels_a_side);
         row.folded_texels = check.folded_texels * (slow ? 16 : 1);
         row.least_jacobian = check.least_jacobian;
     }
@@ -181,7 +181,7 @@ std::vector<LadderRow> measure_ladder(const LadderShape& shape)
                                               wound::spacing_from_curvature(shape.border, shape.centroid));
     const wound::ContractionFlow flow = wound::prepare_flow(shape.border, points, shape.centroid);
     std::vector<LadderRow> rows;
-    for (double ratio : kLadderRatios)
+    for (double ratio : ladder_ratios)
         for (const LadderRow& row : measure(shape, flow, ratio))
             rows.push_back(row);
     return rows;

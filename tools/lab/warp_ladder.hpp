@@ -24,7 +24,7 @@ std::vector<LadderShape> ladder_shapes();
 struct LadderRow
 {
     std::string shape;
-    wound::WarpModel model = wound::WarpModel::grid;
+    wound::WarpModel model = wound::WarpModel::Grid;
     double ratio = 1;
     double error_texels = 0;      // largest distance from the composed map's day-0 point, texels of 512 x 512
     double near_error_texels = 0; // the same within twice today's wound's reach from its centroid
@@ -35,15 +35,15 @@ struct LadderRow
     double ms_per_megatexel = 0; // evaluation in double precision, one thread
 };
 
-inline constexpr double kLadderRatios[] = {1.2, .9, .6, .4, .2, .1, .05, .01};
-inline constexpr wound::WarpModel kWarpModels[] = {wound::WarpModel::radial, wound::WarpModel::grid,
-                                                   wound::WarpModel::dense, wound::WarpModel::composed};
-inline constexpr double kErrorLimit = .25; // texels, of the default model
+inline constexpr double ladder_ratios[] = {1.2, .9, .6, .4, .2, .1, .05, .01};
+inline constexpr wound::WarpModel warp_models[] = {wound::WarpModel::Radial, wound::WarpModel::Grid,
+                                                   wound::WarpModel::Dense, wound::WarpModel::Composed};
+inline constexpr double error_limit = .25; // texels, of the default model
 
 /// A row for each ratio and model.
 std::vector<LadderRow> measure_ladder(const LadderShape& shape);
 
-/// Of the models that stay within kErrorLimit and do not fold in any row, the one whose costliest row is the
+/// Of the models that stay within error_limit and do not fold in any row, the one whose costliest row is the
 /// cheapest.
 std::optional<wound::WarpModel> cheapest_exact(const std::vector<LadderRow>& rows);
 
@@ -53,7 +53,7 @@ std::string ladder_summary(const std::vector<LadderRow>& rows);
 std::string ladder_tables(const std::vector<LadderRow>& rows);
 /// Every row, columns named and in the units of LadderRow.
 std::string ladder_csv(const std::vector<LadderRow>& rows);
-/// RGB. A panel for each shape: error against ratio, both logarithmic, with kErrorLimit and the folds.
+/// RGB. A panel for each shape: error against ratio, both logarithmic, with error_limit and the folds.
 cv::Mat3b draw_ladder(const std::vector<LadderRow>& rows);
 
 } // namespace lab

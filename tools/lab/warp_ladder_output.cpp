@@ -12,8 +12,8 @@ namespace lab {
 
 namespace {
 
-constexpr double kPatchTexels = 512. * 512;
-constexpr double kLeastDrawn = .01; // texels
+constexpr double patch_texels = 512. * 512;
+constexpr double least_drawn = .01; // texels
 
 /// In their order.
 std::vector<std::string> shapes_of(const std::vector<LadderRow>& rows)
@@ -65,7 +65,7 @@ std::string table(const std::vector<LadderRow>& rows, const std::string& title,
     }
     text += "\n" + line + "\n";
     for (const wound::WarpModel model : models)
-        for (const double ratio : kLadderRatios) {
+        for (const double ratio : ladder_ratios) {
             text += fmt::format("| {} | {} |", wound::name_of(model), ratio);
             for (const std::string& shape : shapes)
                 text += fmt::format(" {} |", cell(find(rows, shape, model, ratio)));
@@ -76,32 +76,32 @@ std::string table(const std::vector<LadderRow>& rows, const std::string& title,
 
 cv::Scalar color_of(wound::WarpModel model)
 {
-    return model == wound::WarpModel::radial ? cv::Scalar(214, 130, 20)
-           : model == wound::WarpModel::grid ? cv::Scalar(30, 100, 190)
+    return model == wound::WarpModel::Radial ? cv::Scalar(214, 130, 20)
+           : model == wound::WarpModel::Grid ? cv::Scalar(30, 100, 190)
                                              : cv::Scalar(110, 70, 150);
 }
 
-const cv::Scalar kFold(225, 40, 40), kLimit(120, 120, 120);
+const cv::Scalar fold(225, 40, 40), limit_color(120, 120, 120);
 
 void draw_panel(const cv::Mat3b& picture, cv::Rect area, const std::vector<LadderRow>& rows,
                 const std::string& shape)
 {
-    constexpr base::Range kRatios{.008, 1.5, true}, kErrors{kLeastDrawn, 1000, true};
-    base::Plot plot(picture, area, kRatios, kErrors, shape, "r");
-    plot.line({{kRatios.low, kErrorLimit}, {kRatios.high, kErrorLimit}}, kLimit, 1);
+    constexpr base::Range shown_ratios{.008, 1.5, true}, errors{least_drawn, 1000, true};
+    base::Plot plot(picture, area, shown_ratios, errors, shape, "r");
+    plot.line({{shown_ratios.low, error_limit}, {shown_ratios.high, error_limit}}, limit_color, 1);
     for (const wound::WarpModel model :
-         {wound::WarpModel::dense, wound::WarpModel::radial, wound::WarpModel::grid})
+         {wound::WarpModel::Dense, wound::WarpModel::Radial, wound::WarpModel::Grid})
     {
         std::vector<cv::Point2d> points, shrinking, folded;
-        for (const double ratio : kLadderRatios) {
+        for (const double ratio : ladder_ratios) {
             const LadderRow& row = find(rows, shape, model, ratio);
-            points.emplace_back(ratio, std::max(row.error_texels, kLeastDrawn));
+            points.emplace_back(ratio, std::max(row.error_texels, least_drawn));
             if (ratio < 1) // in between, at 1, every warp is the identity
                 shrinking.push_back(points.back());
             if (row.folded_texels > 0)
                 folded.push_back(points.back());
         }
-        plot.points(folded, kFold, 7);
+        plot.points(folded, fold, 7);
         plot.line(shrinking, color_of(model), 2);
         plot.points(points, color_of(model), 3);
     }
@@ -116,20 +116,20 @@ void draw_legend(const cv::Mat3b& picture, cv::Rect area)
         at.y += 24;
     };
     for (const wound::WarpModel model :
-         {wound::WarpModel::radial, wound::WarpModel::grid, wound::WarpModel::dense})
+         {wound::WarpModel::Radial, wound::WarpModel::Grid, wound::WarpModel::Dense})
     {
         cv::line(target, at + cv::Point(-6, -5), at + cv::Point(16, -5), color_of(model), 2, cv::LINE_AA);
         cv::circle(target, at + cv::Point(5, -5), 3, color_of(model), cv::FILLED, cv::LINE_AA);
         entry(wound::name_of(model));
     }
-    cv::circle(target, at + cv::Point(5, -5), 7, kFold, cv::FILLED, cv::LINE_AA);
+    cv::circle(target, at + cv::Point(5, -5), 7, fold, cv::FILLED, cv::LINE_AA);
     entry("folded somewhere");
-    cv::line(target, at + cv::Point(-6, -5), at + cv::Point(16, -5), kLimit, 1);
-    entry(fmt::format("the limit, {} texel", kErrorLimit));
+    cv::line(target, at + cv::Point(-6, -5), at + cv::Point(16, -5), limit_color, 1);
+    entry(fmt::format("the limit, {} texel", error_limit));
     at += cv::Point(-6, 8);
     for (const std::string& line :
          {std::string("largest distance from the"), std::string("composed map, texels of 512 x 512;"),
-          fmt::format("below {} it lies on the axis", kLeastDrawn)})
+          fmt::format("below {} it lies on the axis", least_drawn)})
     {
         base::draw_text(picture, line, at);
         at.y += 18;
@@ -142,11 +142,11 @@ std::optional<wound::WarpModel> cheapest_exact(const std::vector<LadderRow>& row
 {
     std::optional<wound::WarpModel> cheapest;
     double least_cost = 1e300;
-    for (const wound::WarpModel model : kWarpModels) {
+    for (const wound::WarpModel model : warp_models) {
         const std::vector<LadderRow> own = of_model(rows, model);
         const double cost = largest(own, [](const LadderRow& row) { return row.ms_per_megatexel; });
         const bool exact = std::all_of(own.begin(), own.end(), [](const LadderRow& row) {
-            return row.error_texels <= kErrorLimit && row.folded_texels == 0;
+            return row.error_texels <= error_limit && row.folded_texels == 0;
         });
         if (exact && cost < least_cost) {
             cheapest = model;
@@ -161,7 +161,7 @@ std::string ladder_summary(const std::vector<LadderRow>& rows)
     std::string text =
         "| model | error, texels | near the wound | area, % | folded texels | least Jacobian | "
         "make, ms | CPU ms/megatexel |\n|---|---|---|---|---|---|---|---|\n";
-    for (const wound::WarpModel model : kWarpModels) {
+    for (const wound::WarpModel model : warp_models) {
         const std::vector<LadderRow> own = of_model(rows, model);
         text += fmt::format(
             "| {} | {:.3f} | {:.3f} | {:.2f} | {:.0f} | {:.3f} | {:.1f} .. {:.1f} | {:.0f} .. {:.0f} |\n",
@@ -191,7 +191,7 @@ std::string ladder_tables(const std::vector<LadderRow>& rows)
                   {radial, grid, dense, composed}, [](const LadderRow& row) {
                       return row.folded_texels == 0 ? fmt::format("{:.3f}", row.least_jacobian)
                                                     : fmt::format("{:.3f}, {:.2g} %", row.least_jacobian,
-                                                                  100 * row.folded_texels / kPatchTexels);
+                                                                  100 * row.folded_texels / patch_texels);
                   });
     text += table(rows, "\nCost per texel, the grid's = 1:", {radial, dense, composed},
                   [&](const LadderRow& row) {
@@ -220,13 +220,13 @@ std::string ladder_csv(const std::vector<LadderRow>& rows)
 
 cv::Mat3b draw_ladder(const std::vector<LadderRow>& rows)
 {
-    constexpr int kColumns = 4, kWidth = 300, kHeight = 240;
+    constexpr int column_count = 4, page_width = 300, height = 240;
     const std::vector<std::string> shapes = shapes_of(rows);
     const int count = static_cast<int>(shapes.size()) + 1; // and the legend
     const auto panel = [](int i) {
-        return cv::Rect(i % kColumns * kWidth, i / kColumns * kHeight, kWidth, kHeight);
+        return cv::Rect(i % column_count * page_width, i / column_count * height, page_width, height);
     };
-    cv::Mat3b picture((count + kColumns - 1) / kColumns * kHeight, kColumns * kWidth,
+    cv::Mat3b picture((count + column_count - 1) / column_count * height, column_count * page_width,
                       cv::Vec3b(255, 255, 255));
     for (int i = 0; i + 1 < count; ++i)
         draw_panel(picture, panel(i), rows, shapes[i]);

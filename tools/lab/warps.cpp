@@ -57,7 +57,7 @@ void measure_warps(const std::vector<std::string>& masks, const std::filesystem:
     const std::optional<wound::WarpModel> best = cheapest_exact(rows);
     fmt::print("{}cheapest within {} texel and without a fold: {}\n"
                "every shape and r: warps.csv, warps.md and warps.png in {}\n",
-               summary, kErrorLimit, best ? wound::name_of(*best) : "none", out.string());
+               summary, error_limit, best ? wound::name_of(*best) : "none", out.string());
 }
 
 } // namespace

@@ -17,14 +17,14 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-constexpr double kLargestRatio = 1e4; // beyond it the table is wrong
+constexpr double largest_drawn_ratio = 1e4; // beyond it the table is wrong
 
 std::string trimmed(std::string_view text)
 {
-    constexpr std::string_view kBlank = " \t\r\"";
-    const auto first = text.find_first_not_of(kBlank);
+    constexpr std::string_view blank = " \t\r\"";
+    const auto first = text.find_first_not_of(blank);
     return first == text.npos ? ""
-                              : std::string(text.substr(first, text.find_last_not_of(kBlank) - first + 1));
+                              : std::string(text.substr(first, text.find_last_not_of(blank) - first + 1));
 }
 
 std::string lower(std::string text)
@@ -172,7 +172,7 @@ AreaSeries series_of(const Rows& rows, const Reader& reader)
     for (const auto& [day, measured] : days) {
         series.days.push_back(day - first->first);
         series.ratios.push_back(measured.area / measured.weight / initial);
-        if (!(series.ratios.back() <= kLargestRatio))
+        if (!(series.ratios.back() <= largest_drawn_ratio))
             reader.refuse(fmt::format("{}: on day {} the area is {:.3g} times that of the first day", name,
                                       day, series.ratios.back()),
                           "correct the table: no wound grows so");
@@ -273,7 +273,7 @@ AreaSeries mean_series(const std::vector<AreaSeries>& series, MeanOf of)
     for (const AreaSeries& one : series)
         for (std::size_t i = 0; i < one.days.size(); ++i) {
             days[one.days[i]].area +=
-                one.ratios[i] * (of == MeanOf::ratios ? 1 : one.initial_area / mean_initial);
+                one.ratios[i] * (of == MeanOf::Ratios ? 1 : one.initial_area / mean_initial);
             days[one.days[i]].weight += 1;
         }
     AreaSeries mean;

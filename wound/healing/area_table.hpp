@@ -35,15 +35,15 @@ std::vector<AreaSeries> read_area_table(std::istream& text, std::string_view whe
 /// on their first, or the mean of their ratios, each wound its own measure.
 enum class MeanOf
 {
-    areas,
-    ratios
+    Areas,
+    Ratios
 };
 
 /// The mean over series on every day on which at least one was measured, named "mean".
-AreaSeries mean_series(const std::vector<AreaSeries>& series, MeanOf of = MeanOf::areas);
+AreaSeries mean_series(const std::vector<AreaSeries>& series, MeanOf of = MeanOf::Areas);
 
 /// "mean GROUP" for every group of two wounds or more, in order of first appearance; none when all wounds are
 /// of one group.
-std::vector<AreaSeries> group_means(const std::vector<AreaSeries>& series, MeanOf of = MeanOf::areas);
+std::vector<AreaSeries> group_means(const std::vector<AreaSeries>& series, MeanOf of = MeanOf::Areas);
 
 } // namespace wound

@@ -13,21 +13,21 @@ namespace wound {
 
 namespace {
 
-constexpr double kLeastDelta = 1e-14; // day^-gamma; the fit works with its logarithm
+constexpr double least_delta = 1e-14; // day^-gamma; the fit works with its logarithm
 
 int parameters_of(CurveModel model)
 {
-    return model == CurveModel::exponential ? 1 : model == CurveModel::weibull ? 2 : 3;
+    return model == CurveModel::Exponential ? 1 : model == CurveModel::Weibull ? 2 : 3;
 }
 
 /// ln delta, gamma, theta: the first parameters_of(model) are free.
 using Parameters = Eigen::Vector3d;
-const Parameters kLow{std::log(kLeastDelta), .5, -1};
-const Parameters kHigh{std::log(10.), 4, 1};
+const Parameters low_corner{std::log(least_delta), .5, -1};
+const Parameters high_corner{std::log(10.), 4, 1};
 
 H3 curve_of(const Parameters& p)
 {
-    return {p[0] <= kLow[0] ? 0 : std::min(std::exp(p[0]), 10.), p[1], p[2], 0};
+    return {p[0] <= low_corner[0] ? 0 : std::min(std::exp(p[0]), 10.), p[1], p[2], 0};
 }
 
 /// Weighted residuals and their derivatives; E = r for an asymptote of 0.
@@ -67,7 +67,7 @@ Parameters minimise(const AreaSeries& series, const std::vector<double>& weights
         Eigen::VectorXd gradient = jacobian.transpose() * at.residual;
         Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
         for (int k = 0; k < free; ++k)
-            if ((p[k] <= kLow[k] && gradient[k] > 0) || (p[k] >= kHigh[k] && gradient[k] < 0)) {
+            if ((p[k] <= low_corner[k] && gradient[k] > 0) || (p[k] >= high_corner[k] && gradient[k] < 0)) {
                 normal.row(k).setZero();
                 normal.col(k).setZero();
                 normal(k, k) = 1;
@@ -77,7 +77,7 @@ Parameters minimise(const AreaSeries& series, const std::vector<double>& weights
         normal.diagonal() += damping * scale;
         const Eigen::VectorXd step = normal.ldlt().solve(-gradient);
         Parameters next = p;
-        next.head(free) = (p.head(free) + step).cwiseMax(kLow.head(free)).cwiseMin(kHigh.head(free));
+        next.head(free) = (p.head(free) + step).cwiseMax(low_corner.head(free)).cwiseMin(high_corner.head(free));
         Linearised there = linearise(series, weights, next);
         const double before = at.residual.squaredNorm();
         const double after = there.residual.squaredNorm();
@@ -98,7 +98,7 @@ Parameters minimise(const AreaSeries& series, const std::vector<double>& weights
 /// already lie near the data are followed.
 Parameters best_start(const AreaSeries& series, const std::vector<double>& weights, int free)
 {
-    constexpr std::size_t kFollowed = 12;
+    constexpr std::size_t followed_days = 12;
     const double last = std::max(series.days.back(), 1e-6);
     const auto misfit = [&](const Parameters& p) {
         return linearise(series, weights, p).residual.squaredNorm();
@@ -110,12 +110,12 @@ Parameters best_start(const AreaSeries& series, const std::vector<double>& weigh
                 if ((free < 2 && gamma != 1) || (free < 3 && theta != 0))
                     continue;
                 const double log_delta = std::log(std::log(2.)) - gamma * std::log(half * last);
-                const Parameters start(std::clamp(log_delta, kLow[0], kHigh[0]), gamma, theta);
+                const Parameters start(std::clamp(log_delta, low_corner[0], high_corner[0]), gamma, theta);
                 starts.emplace_back(misfit(start), start);
             }
     std::stable_sort(starts.begin(), starts.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    starts.resize(std::min(starts.size(), kFollowed));
+    starts.resize(std::min(starts.size(), followed_days));
     Parameters best = starts.front().second;
     double least = std::numeric_limits<double>::infinity();
     for (const auto& [unused, start] : starts) {
@@ -147,11 +147,11 @@ std::vector<double> huber_weights(const AreaSeries& series, const Parameters& p)
 /// From the covariance s^2 (J^T J)^-1 of the free parameters that are off their bounds.
 std::array<double, 3> standard_errors(const Linearised& at, const Parameters& p, int free)
 {
-    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-    std::array<double, 3> errors{kUnknown, kUnknown, kUnknown};
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    std::array<double, 3> errors{unknown, unknown, unknown};
     std::vector<int> inside;
     for (int k = 0; k < free; ++k)
-        if (p[k] > kLow[k] && p[k] < kHigh[k])
+        if (p[k] > low_corner[k] && p[k] < high_corner[k])
             inside.push_back(k);
     const auto m = static_cast<Eigen::Index>(inside.size());
     const Eigen::Index n = at.residual.size();
@@ -208,7 +208,7 @@ nlohmann::json finite_or_null(double value)
 
 const char* name_of(CurveModel model)
 {
-    return model == CurveModel::exponential ? "exponential" : model == CurveModel::weibull ? "weibull" : "h3";
+    return model == CurveModel::Exponential ? "exponential" : model == CurveModel::Weibull ? "weibull" : "h3";
 }
 
 SeriesFit fit_series(const AreaSeries& series, std::string_view where, const FitOptions& options)
@@ -217,7 +217,7 @@ SeriesFit fit_series(const AreaSeries& series, std::string_view where, const Fit
         throw base::InputError(where, fmt::format("{}: measured on one day only", series.name),
                                "give areas on two days or more");
     SeriesFit fit{series, {}, 0};
-    for (CurveModel model : kCurveModels)
+    for (CurveModel model : curve_models)
         // Day 0 is met by every curve, so it identifies no parameter.
         if (parameters_of(model) <= static_cast<int>(series.days.size()) - 1)
             fit.models.push_back(fit_model(series, model, options));

@@ -15,22 +15,22 @@ namespace wound {
 
 enum class CurveModel
 {
-    exponential,
-    weibull,
-    h3
+    Exponential,
+    Weibull,
+    H3
 };
-inline constexpr std::array kCurveModels{CurveModel::exponential, CurveModel::weibull, CurveModel::h3};
+inline constexpr std::array curve_models{CurveModel::Exponential, CurveModel::Weibull, CurveModel::H3};
 const char* name_of(CurveModel model);
 
 struct FitOptions
 {
     bool robust = false; // Huber's loss: one bad measurement does not pull the curve
-    MeanOf mean = MeanOf::areas;
+    MeanOf mean = MeanOf::Areas;
 };
 
 struct CurveFit
 {
-    CurveModel model = CurveModel::exponential;
+    CurveModel model = CurveModel::Exponential;
     H3 curve;
     std::array<double, 3> standard_errors{}; // of delta, gamma, theta; NaN for one that is fixed, at its
                                              // bound or not identified

@@ -11,8 +11,8 @@ namespace {
 
 cv::Scalar color_of(CurveModel model)
 {
-    return model == CurveModel::exponential ? cv::Scalar(60, 160, 60)
-           : model == CurveModel::weibull   ? cv::Scalar(30, 110, 200)
+    return model == CurveModel::Exponential ? cv::Scalar(60, 160, 60)
+           : model == CurveModel::Weibull   ? cv::Scalar(30, 110, 200)
                                             : cv::Scalar(210, 40, 40);
 }
 

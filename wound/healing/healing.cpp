@@ -45,12 +45,12 @@ HealingState healing_at(const Healing& healing, double day)
 {
     HealingState state;
     state.day = day;
-    state.unhealed_ratio = std::clamp(unhealed_ratio(healing.curve, day), 0., kLargestRatio);
+    state.unhealed_ratio = std::clamp(unhealed_ratio(healing.curve, day), 0., largest_drawn_ratio);
     const double r = state.unhealed_ratio;
     const double residual = healing.residual_border;
     // While the wound still grows, its border is the bed's: the ring of new epithelium starts at its largest
     // extent.
-    const bool ring = healing.model == HealingModel::face && r < 1;
+    const bool ring = healing.model == HealingModel::Face && r < 1;
     state.border_ratio = ring ? residual + (1 - residual) * r : r;
     state.recovery_ratio = std::clamp(1 - r, 0., 1.);
     state.depth_scale = std::sqrt(std::min(r, 1.));
@@ -59,15 +59,15 @@ HealingState healing_at(const Healing& healing, double day)
 
 double day_below(const H3& curve, double level)
 {
-    constexpr double kLastDay = 1e9;
-    if (!(unhealed_ratio(curve, kLastDay) < level))
+    constexpr double last_day = 1e9;
+    if (!(unhealed_ratio(curve, last_day) < level))
         return std::numeric_limits<double>::infinity();
     // With theta < 0 the ratio may cross the level more than once (at most a fall, a rise and a fall), so the
     // last crossing is looked for from the far side, in logarithmic steps, then bisected.
     double above = 0;
-    double below = kLastDay;
-    constexpr double kStep = 1.01;
-    for (double day = kLastDay; day > 1e-9; day /= kStep) {
+    double below = last_day;
+    constexpr double step = 1.01;
+    for (double day = last_day; day > 1e-9; day /= step) {
         if (unhealed_ratio(curve, day) >= level) {
             above = day;
             break;

@@ -4,7 +4,7 @@
 //   dP/dt = (M - P)(delta gamma t^(gamma-1) + theta / sqrt(1 + theta^2 t^2)), with P(0) = 1 the size ratio r
 //   below.
 //
-// r > 1 is a wound that grows first (retraction, oedema): allowed, and bounded by kLargestRatio where shapes
+// r > 1 is a wound that grows first (retraction, oedema): allowed, and bounded by largest_drawn_ratio where shapes
 // are made from it.
 #pragma once
 #include <string_view>
@@ -25,14 +25,14 @@ struct H3
 
 enum class HealingModel
 {
-    contraction, // the paper's, and a mouse's: the border itself closes
-    face // a person's: the border shrinks to a residual, the open bed closes inside it by new epithelium
+    Contraction, // the paper's, and a mouse's: the border itself closes
+    Face // a person's: the border shrinks to a residual, the open bed closes inside it by new epithelium
 };
 
 struct Healing
 {
     H3 curve; // of the open bed's area
-    HealingModel model = HealingModel::face;
+    HealingModel model = HealingModel::Face;
     double residual_border = .43; // area inside the border once closed / initial; face only. Contraction
                                   // closes 57 % of a facial wound, at the least
     bool operator==(const Healing&) const = default;
@@ -42,15 +42,15 @@ struct Healing
 struct HealingState
 {
     double day = 0;
-    double unhealed_ratio = 1; // area of the open bed / initial area, 0..kLargestRatio
+    double unhealed_ratio = 1; // area of the open bed / initial area, 0..largest_drawn_ratio
     double border_ratio =
         1; // area inside the outer border / initial area; equals unhealed_ratio for contraction
     double recovery_ratio = 0; // 1 - unhealed_ratio, clamped to 0..1
     double depth_scale = 1;    // sqrt(unhealed_ratio), at most 1
 };
 
-inline constexpr double kLargestRatio = 1.4; // growth beyond it is drawn as this
-inline constexpr double kClosedRatio = .01;  // below it a wound counts as closed
+inline constexpr double largest_drawn_ratio = 1.4; // growth beyond it is drawn as this
+inline constexpr double closed_ratio = .01;  // below it a wound counts as closed
 
 /// Throws base::InputError naming the field, for instance "scene.json: healing.gamma", unless every value
 /// is in its range.
@@ -70,7 +70,7 @@ inline double half_time(const H3& curve)
 }
 inline double closure_day(const H3& curve)
 {
-    return day_below(curve, kClosedRatio);
+    return day_below(curve, closed_ratio);
 }
 
 } // namespace wound

@@ -7,10 +7,10 @@ namespace wound {
 
 namespace {
 
-constexpr double kDaysPerMonth = 30.44;
-constexpr double kHighest_mm = .35; // at kHighestMonth
-constexpr double kHighestMonth = 2.5;
-constexpr double kSunken_mm = .1; // finally
+constexpr double days_per_month = 30.44;
+constexpr double highest_mm = .35; // at highest_month
+constexpr double highest_month = 2.5;
+constexpr double sunken_mm = .1; // finally
 
 } // namespace
 
@@ -22,8 +22,8 @@ ScarState scar_after(double months)
     scar.redness = 2.055 / (1 + t / 2.37);
     // New epithelium holds no excess of melanin yet: it builds up within a week or two and fades over months.
     scar.pigmentation = .306 * std::exp(-t / 4.3) * (1 - std::exp(-t / .25));
-    scar.height_mm = kHighest_mm * t / kHighestMonth * std::exp(1 - t / kHighestMonth) -
-                     kSunken_mm * (1 - std::exp(-t / 6));
+    scar.height_mm = highest_mm * t / highest_month * std::exp(1 - t / highest_month) -
+                     sunken_mm * (1 - std::exp(-t / 6));
     scar.sheen = .35 + .65 * std::exp(-t / 5);
     scar.pore_loss = .8 + .2 * std::exp(-t / 6);
     return scar;
@@ -32,7 +32,7 @@ ScarState scar_after(double months)
 ScarState scar_at(const Healing& healing, double day)
 {
     const double closed = closure_day(healing.curve);
-    return scar_after(std::isfinite(closed) ? (day - closed) / kDaysPerMonth : 0);
+    return scar_after(std::isfinite(closed) ? (day - closed) / days_per_month : 0);
 }
 
 } // namespace wound

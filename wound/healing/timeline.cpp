@@ -16,7 +16,7 @@ constexpr double days_per_month = 30.44;
 /// The phases of the open bed, each from the day its courses in phase_at() begin.
 std::vector<TimelinePhase> open_phases(const Healing& healing, double closed, double last_day)
 {
-    if (healing.model == HealingModel::contraction)
+    if (healing.model == HealingModel::Contraction)
         return {{0, std::min(closed, last_day), "open"}};
     constexpr std::array names{"blood and clot", "inflammation", "granulation", "epithelialisation"};
     const PhaseDays begin = phase_days(std::min(closed, 1e6));

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <fmt/format.h>
 #include <mutex>
 #include <numbers>
 #include <thread>

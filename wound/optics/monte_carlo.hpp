@@ -1,4 +1,4 @@
-// Photon walk in layered tissue: the reference of the ladder. Henyey-Greenstein scattering, exact Fresnel
+// Photon walk in layered tissue: the reference for every model. Henyey-Greenstein scattering, exact Fresnel
 // reflection at every boundary, Russian roulette. Seeded; the result does not depend on the number of
 // threads.
 #pragma once

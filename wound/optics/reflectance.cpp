@@ -31,16 +31,16 @@ struct PaperLayer
     double reflected, transmitted;
 };
 
-PaperLayer paper_layer(const LayerOptics& layer, double lower_boundary, ReflectanceModel level)
+PaperLayer paper_layer(const LayerOptics& layer, double lower_boundary, ReflectanceModel model)
 {
     const double a = layer.sigma_a, s = layer.sigma_s_reduced * backward_fraction(layer.g);
-    if (level == ReflectanceModel::Exponential) {
+    if (model == ReflectanceModel::Exponential) {
         const double attenuation = std::exp(-(a + s) * std::min(layer.thickness_mm, 1e30));
         const double scattered = a + s > 0 ? s / (2 * (a + s)) * (1 - attenuation * attenuation) : 0;
         return {scattered + lower_boundary * attenuation * attenuation, attenuation * (1 - lower_boundary)};
     }
     double d = layer.thickness_mm;
-    if (level == ReflectanceModel::Clamped)
+    if (model == ReflectanceModel::Clamped)
         d = std::min({d, 1 / (a + s), 1e30});
     const double left = 1 - (a + s) * d;
     const double scattered = s * d * (1 - a * d + a * a * d * d / 3);
@@ -49,14 +49,14 @@ PaperLayer paper_layer(const LayerOptics& layer, double lower_boundary, Reflecta
 
 // The light that passes one layer is what meets the next; the upper boundary's factor stands before the whole
 // sum.
-Response paper_response(const Stack& stack, ReflectanceModel level, double specular, DiffuseFresnel form)
+Response paper_response(const Stack& stack, ReflectanceModel model, double specular, DiffuseFresnel form)
 {
     const auto& layers = stack.layers;
     double incoming = 1, sum = 0;
     Response response;
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const double below = i + 1 < layers.size() ? layers[i + 1].n : stack.n_below;
-        const PaperLayer layer = paper_layer(layers[i], boundary(layers[i].n, below, form), level);
+        const PaperLayer layer = paper_layer(layers[i], boundary(layers[i].n, below, form), model);
         sum += incoming * layer.reflected;
         const double lost = incoming * (1 - layer.reflected - layer.transmitted);
         response.absorbed.push_back((1 - specular) * lost);
@@ -66,9 +66,9 @@ Response paper_response(const Stack& stack, ReflectanceModel level, double specu
     // not weight it with more than what got in: Exponential takes that, Clamped the smaller of the two.
     const double back_inside = layers.empty() ? 0 : boundary(layers.front().n, stack.n_above, form);
     double lost_at_top = back_inside;
-    if (level == ReflectanceModel::Exponential)
+    if (model == ReflectanceModel::Exponential)
         lost_at_top = specular;
-    else if (level == ReflectanceModel::Clamped)
+    else if (model == ReflectanceModel::Clamped)
         lost_at_top = std::max(back_inside, specular);
     response.r_without_specular = (1 - lost_at_top) * sum;
     response.r = specular + response.r_without_specular;
@@ -85,12 +85,12 @@ Element interface_element(double n_above, double n_below, DiffuseFresnel form)
     return {.r_top = down, .r_bottom = up, .t_down = 1 - down, .t_up = 1 - up};
 }
 
-Element layer_element(const LayerOptics& layer, ReflectanceModel level, const std::array<double, 4>& c)
+Element layer_element(const LayerOptics& layer, ReflectanceModel model, const std::array<double, 4>& c)
 {
     const double a = layer.sigma_a, s = layer.sigma_s_reduced, d = layer.thickness_mm;
-    if (level == ReflectanceModel::TwoStreamPaper)
+    if (model == ReflectanceModel::TwoStreamPaper)
         return slab(s * backward_fraction(layer.g), a, d);
-    if (level == ReflectanceModel::Calibrated) {
+    if (model == ReflectanceModel::Calibrated) {
         // Fitted to the photon walk on 48 stacks like skin; its error on 48 others is in docs/optics.md.
         return a + s > 0 ? slab(c[0] * s * (s / (s + c[1] * a)), a * (c[2] - c[3] * (a / (a + s))), d)
                          : slab(0, 0, d);
@@ -100,14 +100,14 @@ Element layer_element(const LayerOptics& layer, ReflectanceModel level, const st
 }
 
 // boundary, layer, boundary, layer, ... boundary, from the top down; layer i is element 2 i + 1.
-std::vector<Element> elements(const Stack& stack, ReflectanceModel level, double specular,
+std::vector<Element> elements(const Stack& stack, ReflectanceModel model, double specular,
                               const ReflectanceOptions& options)
 {
     std::vector<Element> result;
     double above = stack.n_above;
     for (const LayerOptics& layer : stack.layers) {
         result.push_back(interface_element(above, layer.n, options.fresnel));
-        result.push_back(layer_element(layer, level, options.calibration));
+        result.push_back(layer_element(layer, model, options.calibration));
         above = layer.n;
     }
     result.push_back(interface_element(above, stack.n_below, options.fresnel));
@@ -123,10 +123,10 @@ double round_trip_loss(const Element& upper, const Element& lower)
     return std::max({1 - upper.r_bottom * lower.r_top, upper.t_up, lower.t_down, 1e-300});
 }
 
-Response two_stream(const Stack& stack, ReflectanceModel level, double specular,
+Response two_stream(const Stack& stack, ReflectanceModel model, double specular,
                     const ReflectanceOptions& options)
 {
-    const std::vector<Element> list = elements(stack, level, specular, options);
+    const std::vector<Element> list = elements(stack, model, specular, options);
     std::vector<Element> rest(list.size() + 1); // element i and all that lies under it
     for (std::size_t i = list.size(); i-- > 0;)
         rest[i] = over(list[i], rest[i + 1]);
@@ -164,29 +164,29 @@ constexpr std::array<std::pair<ReflectanceModel, std::string_view>, 8> names{{
 
 std::span<const ReflectanceModel> all_reflectance_models()
 {
-    static const auto levels = [] {
+    static const auto models = [] {
         std::array<ReflectanceModel, names.size()> result{};
         std::transform(names.begin(), names.end(), result.begin(),
                        [](const auto& entry) { return entry.first; });
         return result;
     }();
-    return levels;
+    return models;
 }
 
-std::string_view name(ReflectanceModel level)
+std::string_view name(ReflectanceModel model)
 {
-    return std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.first == level; })
+    return std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.first == model; })
         ->second;
 }
 
 ReflectanceModel reflectance_model_named(std::string_view wanted)
 {
-    for (const auto& [level, text] : names)
+    for (const auto& [model, text] : names)
         if (text == wanted)
-            return level;
+            return model;
     std::vector<std::string_view> known;
-    for (ReflectanceModel level : all_reflectance_models())
-        known.push_back(name(level));
+    for (ReflectanceModel model : all_reflectance_models())
+        known.push_back(name(model));
     throw base::InputError(wanted, "not a reflectance model",
                            fmt::format("known are {}", fmt::join(known, ", ")));
 }
@@ -199,9 +199,9 @@ double specular_reflectance(const Stack& stack, const ReflectanceOptions& option
     return boundary(stack.n_above, n, options.fresnel);
 }
 
-Response reflectance(const Stack& stack, ReflectanceModel level, const ReflectanceOptions& options)
+Response reflectance(const Stack& stack, ReflectanceModel model, const ReflectanceOptions& options)
 {
-    switch (level) {
+    switch (model) {
     case ReflectanceModel::AddingDoubling:
         return adding_doubling(stack, options);
     case ReflectanceModel::MonteCarlo:
@@ -209,20 +209,20 @@ Response reflectance(const Stack& stack, ReflectanceModel level, const Reflectan
     case ReflectanceModel::TwoStream:
     case ReflectanceModel::TwoStreamPaper:
     case ReflectanceModel::Calibrated:
-        return two_stream(stack, level, specular_reflectance(stack, options), options);
+        return two_stream(stack, model, specular_reflectance(stack, options), options);
     default:
-        return paper_response(stack, level, specular_reflectance(stack, options), options.fresnel);
+        return paper_response(stack, model, specular_reflectance(stack, options), options.fresnel);
     }
 }
 
-std::vector<double> diffuse_color(const SkinLayers& tissue, ReflectanceModel level,
+std::vector<double> diffuse_color(const SkinLayers& tissue, ReflectanceModel model,
                                   const ReflectanceOptions& options)
 {
     std::vector<double> color;
     ReflectanceOptions channel = options;
     for (std::size_t c = 0; c < tissue.channels(); ++c) {
         channel.seed = options.seed + c; // or the photons' noise would add up over a spectrum
-        color.push_back(reflectance(tissue.channel(c), level, channel).r_without_specular);
+        color.push_back(reflectance(tissue.channel(c), model, channel).r_without_specular);
     }
     return color;
 }

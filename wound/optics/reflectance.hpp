@@ -1,4 +1,4 @@
-// How much light layered tissue gives back: the ladder of models, from the printed equations to a photon
+// How much light layered tissue gives back: every model, from the printed equations to a photon
 // walk, behind one interface. All take layers at one wavelength; equations are numbered as in docs/optics.md.
 #pragma once
 #include <array>
@@ -28,7 +28,7 @@ enum class ReflectanceModel
 enum class Incidence
 {
     Diffuse,
-    Normal, // analytic levels: the light is diffuse once inside
+    Normal, // analytic models: the light is diffuse once inside
 };
 
 enum class DiffuseFresnel
@@ -49,7 +49,7 @@ enum class Quadrature
 struct ReflectanceOptions
 {
     Incidence incidence = Incidence::Diffuse;
-    DiffuseFresnel fresnel = DiffuseFresnel::Exact; // analytic levels
+    DiffuseFresnel fresnel = DiffuseFresnel::Exact; // analytic models
     int angles = 8;                                 // adding-doubling, per panel
     Quadrature quadrature = Quadrature::Smooth;     // adding-doubling
     /// calibrated: S = c0 s^2 / (s + c1 a), K = a (c2 - c3 a / (a + s)) with a = sigma_a, s = sigma_s'. What
@@ -66,15 +66,15 @@ struct Response
     double r_without_specular = 0; // less what the first surface alone reflects
     double t = 0;                  // into the medium below
     std::vector<double> absorbed =
-        {};                    // per layer; first three levels: whatever they neither return nor pass on
+        {};                    // per layer; first three models: whatever they neither return nor pass on
     double standard_error = 0; // of r; 0 where nothing is random
 };
 
-/// All levels, from the crudest to the reference.
+/// All models, from the crudest to the reference.
 std::span<const ReflectanceModel> all_reflectance_models();
 /// Name on the command line and in JSON: "published", "clamped", "exponential", "two-stream-paper",
 /// "two-stream", ...
-std::string_view name(ReflectanceModel level);
+std::string_view name(ReflectanceModel model);
 /// Throws base::InputError, naming the known ones.
 ReflectanceModel reflectance_model_named(std::string_view name);
 
@@ -83,13 +83,13 @@ ReflectanceModel reflectance_model_named(std::string_view name);
 /// a layer split in two changes nothing. Clamped and Exponential keep the bounds only, Published keeps
 /// nothing. AddingDoubling keeps
 /// all of it: r + t <= 1 within 1e-11, = 1 without absorption within 1e-12, a split layer within 1e-9.
-Response reflectance(const Stack& stack, ReflectanceModel level, const ReflectanceOptions& options = {});
+Response reflectance(const Stack& stack, ReflectanceModel model, const ReflectanceOptions& options = {});
 
 /// What the first surface alone reflects.
 double specular_reflectance(const Stack& stack, const ReflectanceOptions& options = {});
 
 /// r_without_specular of every channel.
-std::vector<double> diffuse_color(const SkinLayers& tissue, ReflectanceModel level,
+std::vector<double> diffuse_color(const SkinLayers& tissue, ReflectanceModel model,
                                   const ReflectanceOptions& options = {});
 
 /// A layer thicker than the printed equations allow: there T(d) < 0.

@@ -11,8 +11,8 @@ namespace wound {
 
 namespace {
 
-constexpr int kClusters = 8;
-constexpr int kIterations = 4;
+constexpr int cluster_count = 8;
+constexpr int iterations = 4;
 
 /// A disk around the seed, certain to be wound.
 cv::Mat1b seed_disk(const CutProblem& problem)
@@ -46,7 +46,7 @@ cv::Mat1b likely_wound(const CutProblem& problem, const cv::Mat1b& outside)
             }
     cv::Mat1i labels;
     const cv::Mat samples(static_cast<int>(colors.size()), 3, CV_32F, colors.data());
-    const int clusters = std::min(kClusters, samples.rows);
+    const int clusters = std::min(cluster_count, samples.rows);
     cv::theRNG().state = 1;
     cv::kmeans(samples, clusters, labels, {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 30, .1}, 3,
                cv::KMEANS_PP_CENTERS);
@@ -117,7 +117,7 @@ cv::Mat1b solve(const CutProblem& problem)
 
     cv::theRNG().state = 1; // GrabCut draws from it: the same photograph always gives the same mask
     cv::Mat background, foreground;
-    cv::grabCut(problem.srgb, labels, {}, background, foreground, kIterations, cv::GC_INIT_WITH_MASK);
+    cv::grabCut(problem.srgb, labels, {}, background, foreground, iterations, cv::GC_INIT_WITH_MASK);
     cv::Mat1b mask = (labels == cv::GC_FGD) | (labels == cv::GC_PR_FGD);
     const cv::Mat brush = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
     cv::morphologyEx(mask, mask, cv::MORPH_OPEN, brush);

@@ -213,7 +213,7 @@ HealthySkin find_healthy_skin(const cv::Mat3f& log_color, const cv::Mat1f& cover
     skin.foreignness = cv::Mat1f(n, n, 0.f);
     skin.rawness = cv::Mat1f(n, n, 1.f);
     std::vector<Vec3f> samples = skin_samples(around);
-    if (static_cast<double>(samples.size()) < kLeastSkin * n * n)
+    if (static_cast<double>(samples.size()) < least_skin * n * n)
         return skin;
     const cv::Mat1b connected = continuous_skin(around, judge(around, fit(std::move(samples)), skin));
 

@@ -9,9 +9,9 @@ namespace wound {
 
 /// What is taken for healthy skin where a photograph shows none: the mean of the four groups' cheeks in Xiao
 /// et al. 2017.
-inline constexpr base::Lab kAverageSkin{59.3, 11.4, 15.5};
+inline constexpr base::Lab average_skin{59.3, 11.4, 15.5};
 /// The smallest share of a patch that can be taken for its healthy skin.
-inline constexpr double kLeastSkin = .0025;
+inline constexpr double least_skin = .0025;
 
 /// All maps are square grids of `healthy_skin_grid` cells over the patch.
 inline constexpr int healthy_skin_grid = 128;

@@ -14,15 +14,15 @@ namespace wound {
 
 namespace {
 
-constexpr int kWorkingSize = 400;    // pixels on the longer side
-constexpr double kLeastContrast = 5; // CIELAB distance across a wound's border, on average
-constexpr int kLeastSide = 16;       // pixels of a photograph
+constexpr int working_size = 400;    // pixels on the longer side
+constexpr double least_contrast = 5; // CIELAB distance across a wound's border, on average
+constexpr int least_side = 16;       // pixels of a photograph
 
 /// The one of several sizes around the seed in which the sharpest closed border is
 /// found.
 cv::Rect best_rectangle(const cv::Mat3b& srgb, const cv::Rect& bounds, cv::Point seed)
 {
-    constexpr int kTrialSize = 192;
+    constexpr int trial_size = 192;
     cv::Rect best = bounds;
     double sharpest = -1;
     for (double size : {.75, .6, .48, .38, .3, .24}) {
@@ -34,7 +34,7 @@ cv::Rect best_rectangle(const cv::Mat3b& srgb, const cv::Rect& bounds, cv::Point
             cv::Rect(seed.x - half.width, seed.y - half.height, 2 * half.width, 2 * half.height) & inner;
         if (rect.width < 8 || rect.height < 8)
             continue;
-        const CutProblem problem = pose(srgb, rect, seed, kTrialSize);
+        const CutProblem problem = pose(srgb, rect, seed, trial_size);
         const double contrast = border_contrast(problem, solve(problem)).wound_like;
         if (contrast > sharpest) {
             sharpest = contrast;
@@ -88,7 +88,7 @@ CutProblem pose_around(const cv::Mat3b& srgb, const CutProblem& field, const Wou
         return cv::Point(cv::Point2d(p) * scale) + field.frame.tl();
     };
     const cv::Rect rect(in_photograph(b.tl() - margin), in_photograph(b.br() + margin));
-    return pose(srgb, rect & field.frame, in_photograph(candidate.deepest), kWorkingSize);
+    return pose(srgb, rect & field.frame, in_photograph(candidate.deepest), working_size);
 }
 
 /// One for every wound that the hints ask for; none where nothing looks like a wound.
@@ -97,7 +97,7 @@ std::vector<CutProblem> problems(const cv::Mat3b& srgb, const SegmentationHints&
 {
     const cv::Rect rect = hints.rect.value_or(bounds);
     const cv::Point seed = hints.seed.value_or((rect.tl() + rect.br()) / 2);
-    const CutProblem field = pose(srgb, rect, seed, kWorkingSize);
+    const CutProblem field = pose(srgb, rect, seed, working_size);
     if (hints.rect && hints.seed)
         return {field};
     std::vector<WoundCandidate> candidates =
@@ -108,7 +108,7 @@ std::vector<CutProblem> problems(const cv::Mat3b& srgb, const SegmentationHints&
     if (hints.rect && candidates.size() < 2) // the user has drawn its surroundings better
         return {field};
     if (hints.seed && candidates.empty())
-        return {pose(srgb, best_rectangle(srgb, bounds, seed), seed, kWorkingSize)};
+        return {pose(srgb, best_rectangle(srgb, bounds, seed), seed, working_size)};
     cv::Mat1b all = cv::Mat1b::zeros(field.srgb.size());
     for (const WoundCandidate& candidate : candidates)
         all |= candidate.region;
@@ -165,7 +165,7 @@ cv::Mat1b picture_area(const cv::Mat3b& srgb)
 cv::Mat1b segment(const cv::Mat3b& srgb, const SegmentationHints& hints, std::string_view where)
 {
     const cv::Rect whole(0, 0, srgb.cols, srgb.rows);
-    if (srgb.cols < kLeastSide || srgb.rows < kLeastSide)
+    if (srgb.cols < least_side || srgb.rows < least_side)
         throw base::InputError(where, fmt::format("{}x{} pixels are too few", srgb.cols, srgb.rows),
                                "give a larger photograph");
     if (hints.rect &&
@@ -176,7 +176,7 @@ cv::Mat1b segment(const cv::Mat3b& srgb, const SegmentationHints& hints, std::st
         throw base::InputError(where, "the seed lies outside the photograph", "give X,Y in pixels inside it");
 
     const cv::Rect bounds = picture_bounds(srgb);
-    if (bounds.width < kLeastSide || bounds.height < kLeastSide)
+    if (bounds.width < least_side || bounds.height < least_side)
         no_wound(where, "the photograph is black");
     cv::Mat1b result = cv::Mat1b::zeros(srgb.size());
     std::string_view why = "nothing stands out from the skin around it as wounds do";
@@ -184,7 +184,7 @@ cv::Mat1b segment(const cv::Mat3b& srgb, const SegmentationHints& hints, std::st
         const cv::Mat1b mask = solve(problem);
         if (cv::countNonZero(mask) < 16) {
             why = "nothing near the seed differs from its surroundings";
-        } else if (border_contrast(problem, mask).distance < kLeastContrast) {
+        } else if (border_contrast(problem, mask).distance < least_contrast) {
             why = "what was found has nearly its surroundings' colour";
         } else {
             cv::Mat1f coverage;
@@ -231,7 +231,7 @@ cv::Mat1b checked_mask(const cv::Mat1b& mask, cv::Size photograph, std::string_v
     const cv::Mat1b binary = mask > 127;
     if (cv::countNonZero(binary) == 0)
         throw base::InputError(where, "the mask is empty", "paint the wound white on black");
-    if (std::min(mask.cols, mask.rows) < kLeastSide &&
+    if (std::min(mask.cols, mask.rows) < least_side &&
         cv::countNonZero(binary) == static_cast<int>(binary.total()))
         throw base::InputError(
             where, fmt::format("{}x{} pixels, all of them wound, are too few", mask.cols, mask.rows),

@@ -15,15 +15,15 @@ namespace {
 using Outline = std::vector<cv::Point>;
 using Outlines = std::vector<Outline>;
 
-constexpr int kLevels = 40;
-constexpr double kLeastShare = 1e-3, kMostShare = .4; // of the picture's area
-constexpr float kUnevenSkin = 2;     // CIELAB units by which healthy skin differs from itself
-constexpr float kStrongest = 30;     // CIELAB units beyond which a border is no sharper
-constexpr double kMostCut = .25;     // of a wound's border, by the picture's edge
-constexpr double kLeastScore = 1;    // plain skin on a limb reaches .9
-constexpr double kLeastOfBest = .15; // a second wound's score, relative to the best
-constexpr double kNearlyBest = .7;   // of the best's score: a region that has a say in its outline
-constexpr int kLeastOfLargest = 20;  // parts of the largest wound's area, as in components()
+constexpr int level_count = 40;
+constexpr double least_share = 1e-3, most_share = .4; // of the picture's area
+constexpr float uneven_skin = 2;     // CIELAB units by which healthy skin differs from itself
+constexpr float strongest = 30;     // CIELAB units beyond which a border is no sharper
+constexpr double most_cut = .25;     // of a wound's border, by the picture's edge
+constexpr double least_score = 1;    // plain skin on a limb reaches .9
+constexpr double least_of_best = .15; // a second wound's score, relative to the best
+constexpr double nearly_best = .7;   // of the best's score: a region that has a say in its outline
+constexpr int least_of_largest = 20;  // parts of the largest wound's area, as in components()
 
 /// 0..1: whether the colour is skin's in some light: hue from rose to yellow, not grey.
 float skin_likeness(const cv::Vec3f& lab)
@@ -127,11 +127,11 @@ double border_score(const Picture& picture, const Outline& outline, double area)
         else if (frame.contains(in)) {
             const cv::Vec3f step = picture.lab(in) - picture.lab(out);
             const float contrast = std::max(step[1], 0.F) + .5F * std::max(-step[0], 0.F);
-            contrasts.push_back(std::clamp(contrast - kUnevenSkin, 0.F, kStrongest) * picture.skin(out));
+            contrasts.push_back(std::clamp(contrast - uneven_skin, 0.F, strongest) * picture.skin(out));
             sum += contrasts.back();
         }
     }
-    if (cut > kMostCut * n)
+    if (cut > most_cut * n)
         return 0;
     const double mean = sum / n;
     const auto strong =
@@ -149,7 +149,7 @@ struct Scored
 double score_of(const Picture& picture, const Outline& outline)
 {
     const double area = cv::contourArea(outline);
-    if (outline.size() < 12 || area < kLeastShare * picture.area || area > kMostShare * picture.area)
+    if (outline.size() < 12 || area < least_share * picture.area || area > most_share * picture.area)
         return 0;
     Outline hull;
     cv::convexHull(outline, hull);
@@ -165,8 +165,8 @@ void score_levels(const Picture& picture, const cv::Mat1f& map, int brush_size, 
     double low = 0, high = 0;
     cv::minMaxLoc(map, &low, &high, nullptr, nullptr, picture.body);
     const cv::Mat brush = cv::getStructuringElement(cv::MORPH_ELLIPSE, {brush_size, brush_size});
-    for (int level = 1; level < kLevels; ++level) {
-        cv::Mat1b above = map > low + (high - low) * level / kLevels;
+    for (int level = 1; level < level_count; ++level) {
+        cv::Mat1b above = map > low + (high - low) * level / level_count;
         above &= picture.body;
         cv::morphologyEx(above, above, cv::MORPH_OPEN, brush);
         Outlines outlines;
@@ -192,7 +192,7 @@ cv::Mat1b agreed(const std::vector<Scored>& scored, const Scored& best, cv::Size
     cv::Mat1f votes = cv::Mat1f::zeros(size);
     double cast = 0;
     for (const Scored& one : scored) {
-        if (one.score < kNearlyBest * best.score)
+        if (one.score < nearly_best * best.score)
             break;
         if ((cv::boundingRect(one.outline) & cv::boundingRect(best.outline)).empty())
             continue;
@@ -217,14 +217,14 @@ std::vector<WoundCandidate> wound_candidates(const cv::Mat3f& lab, const cv::Mat
     for (const cv::Mat1f& map : maps_of(coarse(lab, 2 * picture.detail)))
         score_levels(picture, map, picture.detail, scored);
     std::erase_if(scored, [&](const Scored& one) {
-        return seed ? cv::pointPolygonTest(one.outline, *seed, false) < 0 : one.score < kLeastScore;
+        return seed ? cv::pointPolygonTest(one.outline, *seed, false) < 0 : one.score < least_score;
     });
     std::stable_sort(scored.begin(), scored.end(),
                      [](const Scored& a, const Scored& b) { return a.score > b.score; });
     std::vector<WoundCandidate> result;
     cv::Mat1b taken = cv::Mat1b::zeros(lab.size());
     for (const Scored& one : scored) {
-        if (one.score < kLeastOfBest * scored.front().score)
+        if (one.score < least_of_best * scored.front().score)
             break;
         if (cv::countNonZero(filled(one.outline, lab.size()) & taken) > 0)
             continue;
@@ -242,7 +242,7 @@ std::vector<WoundCandidate> wound_candidates(const cv::Mat3f& lab, const cv::Mat
     int largest = 0;
     for (const WoundCandidate& candidate : result)
         largest = std::max(largest, area(candidate));
-    std::erase_if(result, [&](const WoundCandidate& one) { return kLeastOfLargest * area(one) < largest; });
+    std::erase_if(result, [&](const WoundCandidate& one) { return least_of_largest * area(one) < largest; });
     return result;
 }
 

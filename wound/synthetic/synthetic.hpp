@@ -14,9 +14,9 @@ namespace wound {
 
 enum class WoundShape
 {
-    abrasion,   // ragged oval, about 27 x 19 mm: cheek
-    laceration, // gaping cut, about 34 x 7 mm: above the eyebrow
-    avulsion    // several lobes and tears, about 21 mm: chin
+    Abrasion,   // ragged oval, about 27 x 19 mm: cheek
+    Laceration, // gaping cut, about 34 x 7 mm: above the eyebrow
+    Avulsion    // several lobes and tears, about 21 mm: chin
 };
 
 /// The shapes' names, in their order: "abrasion", ...
@@ -26,7 +26,7 @@ WoundShape shape_named(std::string_view name);
 
 struct SyntheticWound
 {
-    WoundShape shape = WoundShape::abrasion;
+    WoundShape shape = WoundShape::Abrasion;
     std::uint32_t seed = 1;
     float clot = .2f;              // fraction of the open bed, 0..1
     float fibrin = .22f;           // fraction of the open bed, 0..1

@@ -43,7 +43,7 @@ Point2f turned(Point2f p, float angle)
 /// How far the border strays from a smooth line: a cut has straighter lips than a graze.
 float cleanness(const SyntheticWound& wound)
 {
-    return wound.shape == WoundShape::laceration ? .45f : 1;
+    return wound.shape == WoundShape::Laceration ? .45f : 1;
 }
 
 /// The smooth idea of the wound before its border is torn, mm, positive inside.
@@ -53,14 +53,14 @@ float body(const SyntheticWound& wound, Point2f p)
         return std::lerp(low, high, hash01(wound.seed, index, 71));
     };
     switch (wound.shape) {
-    case WoundShape::laceration: {
+    case WoundShape::Laceration: {
         p = turned(p, vary(0, -.15f, .25f));
         const float along = p.x / vary(1, 16, 18), bend = vary(2, -.014f, -.006f);
         const float half_width = vary(3, 2.4f, 3.2f) * (1 - along * along) * (1 + .3f * along);
         const float cut = half_width - std::abs(p.y - bend * p.x * p.x);
         return merge(cut, tear(p, {vary(4, 1, 5), 0}, {vary(5, 6, 9), vary(6, 5, 7)}, 1.5f, .2f), 2);
     }
-    case WoundShape::avulsion: {
+    case WoundShape::Avulsion: {
         float f = ellipse(p, vary(0, 7, 8.5f), vary(1, 5.5f, 7));
         for (int lobe = 0; lobe < 3; ++lobe) {
             const float angle = 2.1f * float(lobe) + vary(2 + lobe, 0, 1.4f);
@@ -71,7 +71,7 @@ float body(const SyntheticWound& wound, Point2f p)
         const float angle = vary(20, 0, 6.28f);
         return merge(f, tear(p, turned({4, 0}, angle), turned({vary(21, 11, 13), 2}, angle), 2.6f, .3f), 2);
     }
-    case WoundShape::abrasion:
+    case WoundShape::Abrasion:
         break;
     }
     p = turned(p, vary(0, .2f, .6f));

@@ -84,29 +84,29 @@ float TissuePainter::noise(Point2f p, float per_mm, int channel, int octaves) co
 SlowFields TissuePainter::slow_fields(Point2f p, float inside_mm) const
 {
     SlowFields slow = SlowFields::all(0);
-    slow[blotches] = noise(p, .12f, 1, 3);
+    slow[Blotches] = noise(p, .12f, 1, 3);
     if (inside_mm < -reach_mm)
         return slow;
-    slow[uneven] = noise(p, .13f, 10, 2);
-    slow[mottled] = noise(p, .5f, 11, 2);
-    slow[bruise] = noise(p, .17f, 12);
+    slow[Uneven] = noise(p, .13f, 10, 2);
+    slow[Mottled] = noise(p, .5f, 11, 2);
+    slow[Bruise] = noise(p, .17f, 12);
     const Point2f away = p - scrape_centre_;
-    slow[scraped] = 1 - std::sqrt(away.dot(away)) / 9.f + .7f * noise(p, .16f, 20, 2);
-    slow[wiped] = noise(Point2f(p.x + 2 * noise(p, .22f, 30, 2), .4f * p.y), .24f, 31, 3);
-    slow[film_patches] = noise(p, .33f, 35, 2);
-    slow[stretch] = noise(p, .13f, 40, 2);
-    slow[bend_x] = noise(p, .45f, 50, 2);
-    slow[bend_y] = noise(p, .45f, 51, 2);
+    slow[Scraped] = 1 - std::sqrt(away.dot(away)) / 9.f + .7f * noise(p, .16f, 20, 2);
+    slow[Wiped] = noise(Point2f(p.x + 2 * noise(p, .22f, 30, 2), .4f * p.y), .24f, 31, 3);
+    slow[FilmPatches] = noise(p, .33f, 35, 2);
+    slow[Stretch] = noise(p, .13f, 40, 2);
+    slow[BendX] = noise(p, .45f, 50, 2);
+    slow[BendY] = noise(p, .45f, 51, 2);
     if (inside_mm < -2)
         return slow;
-    slow[supply] = noise(p, .11f, 52, 4);
-    slow[livid] = noise(p, .16f, 53, 2);
-    slow[wall] = noise(p, .2f, 55);
-    slow[floor] = noise(p, .09f, 56, 2);
-    slow[knobby] = noise(p, .14f, 57, 2);
-    slow[fibrin] = noise(p + 1.2f * Point2f(noise(p, .3f, 60), noise(p, .3f, 61)), .15f, 62, 3) +
+    slow[Supply] = noise(p, .11f, 52, 4);
+    slow[Livid] = noise(p, .16f, 53, 2);
+    slow[Wall] = noise(p, .2f, 55);
+    slow[Floor] = noise(p, .09f, 56, 2);
+    slow[Knobby] = noise(p, .14f, 57, 2);
+    slow[Fibrin] = noise(p + 1.2f * Point2f(noise(p, .3f, 60), noise(p, .3f, 61)), .15f, 62, 3) +
                    .25f * base::smoothstep(.3f, 2.5f, inside_mm);
-    slow[clot] = noise(p + Point2f(noise(p, .35f, 70), noise(p, .35f, 71)), .17f, 72, 3) +
+    slow[Clot] = noise(p + Point2f(noise(p, .35f, 70), noise(p, .35f, 71)), .17f, 72, 3) +
                  .45f * std::exp(-std::max(inside_mm, 0.f) / 1.3f);
     return slow;
 }
@@ -115,8 +115,8 @@ void TissuePainter::set_shares(const std::vector<SlowFields>& bed)
 {
     std::vector<float> fibrin_values, clot_values;
     for (const SlowFields& slow : bed) {
-        fibrin_values.push_back(slow[fibrin]);
-        clot_values.push_back(slow[clot]);
+        fibrin_values.push_back(slow[Fibrin]);
+        clot_values.push_back(slow[Clot]);
     }
     fibrin_threshold_ = upper_quantile(std::move(fibrin_values), wound_.fibrin);
     clot_threshold_ = upper_quantile(std::move(clot_values), wound_.clot);
@@ -145,7 +145,7 @@ Tissue TissuePainter::skin(const Place& place) const
     const float grain = noise(place.p, 1.0f, 2, 2);
     Tissue tissue;
     tissue.reflectance =
-        through(skin_, oxygenated, .13f * place.slow[blotches] + .06f * grain) * (1 + .03f * grain);
+        through(skin_, oxygenated, .13f * place.slow[Blotches] + .06f * grain) * (1 + .03f * grain);
     tissue.height_mm = .01f * grain;
     return tissue;
 }
@@ -154,7 +154,7 @@ Tissue TissuePainter::skin(const Place& place) const
 void TissuePainter::inflame(Tissue& tissue, const Place& place) const
 {
     const float out = -place.inside_mm;
-    const float spread = place.slow[uneven], mottle = place.slow[mottled];
+    const float spread = place.slow[Uneven], mottle = place.slow[Mottled];
     const float width = std::max(2.4f * (1 + 1.1f * spread), .9f);
     const float near = std::exp(-std::pow(out / width, 1.25f));
     const float far =
@@ -163,7 +163,7 @@ void TissuePainter::inflame(Tissue& tissue, const Place& place) const
     const float blanched = 1 - .45f * std::exp(-tight * tight);
     const float amount =
         near * std::max(.72f + .55f * mottle, .1f) * blanched + .26f * far * std::max(1 + .8f * mottle, 0.f);
-    const float bruised = near * base::smoothstep(.0f, .5f, place.slow[bruise]);
+    const float bruised = near * base::smoothstep(.0f, .5f, place.slow[Bruise]);
     tissue.reflectance = through(tissue.reflectance, mix(oxygenated, deoxygenated, .8f * bruised), amount);
     const float swelling = (out - 1.3f) / 1.5f;
     tissue.height_mm = tissue.height_mm * (1 - .6f * near) + .45f * std::exp(-swelling * swelling);
@@ -174,10 +174,10 @@ void TissuePainter::inflame(Tissue& tissue, const Place& place) const
 /// them.
 void TissuePainter::scrape(Tissue& tissue, const Place& place) const
 {
-    const float region = base::smoothstep(.05f, .7f, place.slow[scraped]);
+    const float region = base::smoothstep(.05f, .7f, place.slow[Scraped]);
     if (region <= 0 || place.inside_mm > -.1f)
         return;
-    const Point2f p = place.p + .5f * Point2f(place.slow[bend_x], place.slow[bend_y]);
+    const Point2f p = place.p + .5f * Point2f(place.slow[BendX], place.slow[BendY]);
     const Point2f along{p.dot(scrape_direction_), p.x * scrape_direction_.y - p.y * scrape_direction_.x};
     const float streak = .6f * noise_.at({along.x * .07f + 5, along.y * .8f}) +
                          .8f * noise_.at({along.x * .16f + 5, along.y * 1.9f}) +
@@ -200,14 +200,14 @@ void TissuePainter::smear_blood(Tissue& tissue, const Place& place) const
 {
     const Point2f p = place.p;
     const float out = -place.inside_mm;
-    const float wipe = place.slow[wiped] + .35f * place.slow[film_patches] - .04f * out;
+    const float wipe = place.slow[Wiped] + .35f * place.slow[FilmPatches] - .04f * out;
     if (wipe > .05f) {
         const float film = base::smoothstep(.05f, .5f, wipe) *
                            std::max(.5f + 1.2f * noise(p, .9f, 32, 3), 0.f) *
                            (1 - base::smoothstep(4, 9, out));
         tissue.reflectance = through(tissue.reflectance, mix(oxygenated, dried, .3f), .9f * film);
     }
-    const float splashed = .6f * place.slow[film_patches] - .035f * out;
+    const float splashed = .6f * place.slow[FilmPatches] - .035f * out;
     if (splashed < -.1f)
         return; // too far for the noise below to make up for it
     const float speck = base::smoothstep(.54f, .66f, noise(p, .8f, 33, 3) + splashed);
@@ -223,11 +223,11 @@ void TissuePainter::fray_border(Tissue& tissue, const Place& place) const
     const float d = place.inside_mm;
     if (std::abs(d) > 3)
         return;
-    const float along = place.slow[stretch], fine = noise(p, .9f, 41, 3);
+    const float along = place.slow[Stretch], fine = noise(p, .9f, 41, 3);
     // The edge itself is raw: a band of dermis, bared and bleeding, from the lip down the wall.
-    const float reach = .75f + 1.1f * place.slow[uneven] + .5f * fine;
+    const float reach = .75f + 1.1f * place.slow[Uneven] + .5f * fine;
     const float bared = base::smoothstep(std::max(reach, .1f), 0, std::abs(d)) *
-                        base::smoothstep(-.35f, .25f, place.slow[knobby] + .5f * fine);
+                        base::smoothstep(-.35f, .25f, place.slow[Knobby] + .5f * fine);
     tissue.reflectance =
         mix(tissue.reflectance, through(pale_dermis, mix(oxygenated, deoxygenated, .15f), 2.0f + 1.6f * fine),
             .85f * bared);
@@ -262,26 +262,26 @@ void TissuePainter::fray_border(Tissue& tissue, const Place& place) const
 /// oxygen is short.
 Tissue TissuePainter::bed(const Place& place) const
 {
-    const Point2f p = place.p + .7f * Point2f(place.slow[bend_x], place.slow[bend_y]);
+    const Point2f p = place.p + .7f * Point2f(place.slow[BendX], place.slow[BendY]);
     const Cell coarse = cell_at(wound_.seed + 1, p * .7f), fine = cell_at(wound_.seed + 2, p * 1.9f);
-    const float knobs = base::smoothstep(-.35f, .35f, place.slow[knobby]);
+    const float knobs = base::smoothstep(-.35f, .35f, place.slow[Knobby]);
     const float dome = 1 - .75f * (coarse.nearest * coarse.nearest + fine.nearest * fine.nearest);
     const float rough = noise(p, 1.1f, 54, 4);
     const float bump =
         std::clamp(std::lerp(.55f + .8f * rough, dome + .4f * rough, .4f + .45f * knobs), 0.f, 1.f);
     const float patches = noise(p, .42f, 58, 3),
-                short_of_oxygen = base::smoothstep(-.05f, .5f, place.slow[livid]);
+                short_of_oxygen = base::smoothstep(-.05f, .5f, place.slow[Livid]);
 
     Tissue tissue;
     const float own = fraction(coarse.id * 2654435761u) - .5f;
-    const float blood = std::clamp(3.0f + 1.7f * place.slow[supply] + 1.0f * patches + .35f * own * knobs +
+    const float blood = std::clamp(3.0f + 1.7f * place.slow[Supply] + 1.0f * patches + .35f * own * knobs +
                                        2.0f * (.60f - bump) + .9f * std::exp(-place.inside_mm / 1.2f),
                                    1.1f, 5.5f);
     tissue.reflectance = through(pale_dermis, mix(oxygenated, deoxygenated, .75f * short_of_oxygen), blood) *
                          (.77f + .22f * bump);
 
-    const float wall_mm = 1.2f + .8f * place.slow[wall];
-    const float floor_mm = 1.9f + .7f * place.slow[floor];
+    const float wall_mm = 1.2f + .8f * place.slow[Wall];
+    const float floor_mm = 1.9f + .7f * place.slow[Floor];
     tissue.height_mm =
         -floor_mm * base::smoothstep(-.1f, std::max(wall_mm, .4f), place.inside_mm) + .18f * bump;
     tissue.wetness = .9f * base::smoothstep(.2f, .8f, place.inside_mm);
@@ -294,7 +294,7 @@ Tissue TissuePainter::bed(const Place& place) const
 /// its margin.
 void TissuePainter::lay_fibrin(Tissue& tissue, const Place& place, float bump) const
 {
-    const float over = place.slow[fibrin] - fibrin_threshold_;
+    const float over = place.slow[Fibrin] - fibrin_threshold_;
     if (over < -.45f)
         return;
     const Point2f p = place.p;
@@ -318,7 +318,7 @@ void TissuePainter::lay_clot(Tissue& tissue, const Place& place) const
 {
     const Point2f p = place.p;
     const float lumps = noise(p, .7f, 74, 3);
-    const float over = place.slow[clot] - clot_threshold_ + .22f * noise(p, .5f, 73, 4);
+    const float over = place.slow[Clot] - clot_threshold_ + .22f * noise(p, .5f, 73, 4);
     if (over < -.30f)
         return;
     const float film = base::smoothstep(-.30f, .08f, over), body = base::smoothstep(-.03f, .17f, over),

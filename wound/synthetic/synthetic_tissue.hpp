@@ -18,28 +18,28 @@ struct Tissue
 
 /// Noise fields whose features span millimetres: kept on a coarse grid, since they cost as much as fine ones
 /// to evaluate.
-enum Slow
+enum SlowField
 {
-    blotches,
-    uneven,
-    mottled,
-    bruise,
-    scraped,
-    wiped,
-    film_patches,
-    stretch,
-    supply,
-    livid,
-    wall,
-    floor,
-    knobby,
-    fibrin,
-    clot,
-    bend_x,
-    bend_y,
-    slow_count
+    Blotches,
+    Uneven,
+    Mottled,
+    Bruise,
+    Scraped,
+    Wiped,
+    FilmPatches,
+    Stretch,
+    Supply,
+    Livid,
+    Wall,
+    Floor,
+    Knobby,
+    Fibrin,
+    Clot,
+    BendX,
+    BendY,
+    SlowFieldCount
 };
-using SlowFields = cv::Vec<float, slow_count>;
+using SlowFields = cv::Vec<float, SlowFieldCount>;
 
 /// Where a point lies relative to the outline.
 struct Place

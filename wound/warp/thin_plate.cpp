@@ -9,7 +9,7 @@ namespace wound {
 
 namespace {
 
-constexpr int kAnchorsPerSide = 16; // between them the frame strays by less than half a texel of 512
+constexpr int anchors_per_side = 16; // between them the frame strays by less than half a texel of 512
 
 /// r^2 log r^2, twice the thin plate's kernel, from the squared distance; 0 at 0 because the logarithm is of
 /// a positive number.
@@ -21,8 +21,8 @@ double kernel(double squared)
 std::vector<cv::Point2d> frame_anchors()
 {
     std::vector<cv::Point2d> anchors;
-    for (int i = 0; i < kAnchorsPerSide; ++i) {
-        const double t = -1 + 2. * i / kAnchorsPerSide;
+    for (int i = 0; i < anchors_per_side; ++i) {
+        const double t = -1 + 2. * i / anchors_per_side;
         anchors.insert(anchors.end(), {{t, -1}, {1, t}, {-t, 1}, {-1, -t}});
     }
     return anchors;

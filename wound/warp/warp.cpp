@@ -11,11 +11,11 @@ namespace wound {
 
 namespace {
 
-constexpr int kHullAngles = 256;
-constexpr int kHullReach = 32;       // angles over which the hull is widened and smoothed
-constexpr double kHullMargin = 1.05; // so that a blurred border is scaled as a whole
+constexpr int hull_angles = 256;
+constexpr int hull_reach = 32;       // angles over which the hull is widened and smoothed
+constexpr double hull_margin = 1.05; // so that a blurred border is scaled as a whole
 // Control points nearer than half a texel of 512 count as one: the system would be near-singular.
-constexpr double kCoincident = .002;
+constexpr double coincident = .002;
 
 double cross(cv::Point2d a, cv::Point2d b)
 {
@@ -38,33 +38,33 @@ double distance_to_frame(cv::Point2d centroid, cv::Point2d direction)
 /// its farthest point, so that a direction without border (a crescent's hollow) is contracted too.
 std::vector<double> star_hull(const std::vector<cv::Point2d>& border, cv::Point2d centroid)
 {
-    constexpr double kTurn = 2 * std::numbers::pi;
-    std::vector<double> farthest(kHullAngles, 0.);
+    constexpr double full_turn = 2 * std::numbers::pi;
+    std::vector<double> farthest(hull_angles, 0.);
     for (std::size_t i = 0; i < border.size(); ++i) {
         const cv::Point2d a = border[i] - centroid;
         const cv::Point2d b = border[(i + 1) % border.size()] - centroid;
         const int samples = 1 + static_cast<int>(cv::norm(b - a) / .002);
         for (int k = 0; k < samples; ++k) {
             const cv::Point2d p = a + (b - a) * (static_cast<double>(k) / samples);
-            const double turn = (std::atan2(p.y, p.x) + std::numbers::pi) / kTurn * kHullAngles;
-            const int bin = static_cast<int>(turn) % kHullAngles;
-            for (int bin_beside : {bin, (bin + 1) % kHullAngles})
+            const double turn = (std::atan2(p.y, p.x) + std::numbers::pi) / full_turn * hull_angles;
+            const int bin = static_cast<int>(turn) % hull_angles;
+            for (int bin_beside : {bin, (bin + 1) % hull_angles})
                 farthest[bin_beside] = std::max(farthest[bin_beside], cv::norm(p));
         }
     }
     const double least = .7 * *std::max_element(farthest.begin(), farthest.end());
     // Widening by the reach and then averaging over the same reach keeps the hull outside the border.
-    std::vector<double> hull(kHullAngles, 0.);
-    const auto wrapped = [](int i) { return (i + kHullAngles) % kHullAngles; };
-    std::vector<double> widened(kHullAngles);
-    for (int i = 0; i < kHullAngles; ++i) {
+    std::vector<double> hull(hull_angles, 0.);
+    const auto wrapped = [](int i) { return (i + hull_angles) % hull_angles; };
+    std::vector<double> widened(hull_angles);
+    for (int i = 0; i < hull_angles; ++i) {
         widened[i] = least;
-        for (int k = -kHullReach; k <= kHullReach; ++k)
+        for (int k = -hull_reach; k <= hull_reach; ++k)
             widened[i] = std::max(widened[i], farthest[wrapped(i + k)]);
     }
-    for (int i = 0; i < kHullAngles; ++i)
-        for (int k = -kHullReach; k <= kHullReach; ++k)
-            hull[i] += kHullMargin * widened[wrapped(i + k)] / (2 * kHullReach + 1);
+    for (int i = 0; i < hull_angles; ++i)
+        for (int k = -hull_reach; k <= hull_reach; ++k)
+            hull[i] += hull_margin * widened[wrapped(i + k)] / (2 * hull_reach + 1);
     return hull;
 }
 
@@ -143,13 +143,13 @@ cv::Point2d apply_steps(const std::vector<ThinPlate>& steps, cv::Point2d p)
     return p;
 }
 
-/// The steps from `scale` back to 1: a partial step to the next whole power of kStepScale, then whole ones.
+/// The steps from `scale` back to 1: a partial step to the next whole power of step_scale, then whole ones.
 std::vector<ThinPlate> composed_steps(const ContractionFlow& flow, double scale)
 {
     int whole = 0;
     double reached = 1;
-    while (whole < static_cast<int>(flow.steps.size()) && reached * kStepScale >= scale) {
-        reached *= kStepScale;
+    while (whole < static_cast<int>(flow.steps.size()) && reached * step_scale >= scale) {
+        reached *= step_scale;
         ++whole;
     }
     std::vector<ThinPlate> steps;
@@ -187,12 +187,12 @@ void fill_grid(Warp& warp, const std::vector<ThinPlate>& steps)
 cv::Point2d Warp::apply(cv::Point2d p) const
 {
     switch (model) {
-    case WarpModel::radial:
+    case WarpModel::Radial:
         return apply_radial(*this, p);
-    case WarpModel::grid:
+    case WarpModel::Grid:
         return apply_grid(*this, p);
-    case WarpModel::dense:
-    case WarpModel::composed:
+    case WarpModel::Dense:
+    case WarpModel::Composed:
         return apply_steps(steps, p);
     }
     return p;
@@ -206,16 +206,16 @@ ContractionFlow prepare_flow(const std::vector<cv::Point2d>& border,
     std::vector<cv::Point2d> candidates = control_points;
     candidates.push_back(centroid);
     for (cv::Point2d candidate : candidates) {
-        const auto coincides = [candidate](cv::Point2d p) { return cv::norm(p - candidate) < kCoincident; };
+        const auto coincides = [candidate](cv::Point2d p) { return cv::norm(p - candidate) < coincident; };
         if (std::none_of(flow.control_points.begin(), flow.control_points.end(), coincides))
             flow.control_points.push_back(candidate);
     }
-    const int count = static_cast<int>(std::ceil(std::log(kSmallestScale) / std::log(kStepScale))) - 1;
+    const int count = static_cast<int>(std::ceil(std::log(smallest_scale) / std::log(step_scale))) - 1;
     flow.steps.resize(count);
     cv::parallel_for_({0, count}, [&](const cv::Range& range) {
         for (int k = range.start; k < range.end; ++k)
-            flow.steps[k] = contraction_step(flow.control_points, centroid, std::pow(kStepScale, k + 1),
-                                             std::pow(kStepScale, k));
+            flow.steps[k] = contraction_step(flow.control_points, centroid, std::pow(step_scale, k + 1),
+                                             std::pow(step_scale, k));
     });
     return flow;
 }
@@ -224,19 +224,19 @@ Warp make_warp(const ContractionFlow& flow, double area_ratio, WarpModel model)
 {
     Warp warp;
     warp.model = model;
-    warp.scale = std::max(std::sqrt(area_ratio), kSmallestScale);
+    warp.scale = std::max(std::sqrt(area_ratio), smallest_scale);
     warp.centroid = flow.centroid;
     switch (model) {
-    case WarpModel::radial:
+    case WarpModel::Radial:
         warp.radii = flow.radii;
         break;
-    case WarpModel::grid:
+    case WarpModel::Grid:
         fill_grid(warp, composed_steps(flow, warp.scale));
         break;
-    case WarpModel::dense:
+    case WarpModel::Dense:
         warp.steps = {contraction_step(flow.control_points, flow.centroid, warp.scale, 1)};
         break;
-    case WarpModel::composed:
+    case WarpModel::Composed:
         warp.steps = composed_steps(flow, warp.scale);
         break;
     }
@@ -256,20 +256,20 @@ shared::WarpHeader pack(const Warp& warp, std::vector<shared::vec2>& values)
     header.first = static_cast<shared::uint>(values.size());
     header.steps = static_cast<shared::uint>(warp.steps.size());
     switch (warp.model) {
-    case WarpModel::radial:
+    case WarpModel::Radial:
         header.count = static_cast<shared::uint>(warp.radii.size());
         for (double radius : warp.radii)
             put({radius, 0});
         break;
-    case WarpModel::grid:
+    case WarpModel::Grid:
         header.count = static_cast<shared::uint>(warp.nodes.size());
         for (cv::Point2d node : warp.nodes)
             put(node);
         for (const cv::Vec2d& node : warp.grid)
             put(cv::Point2d(node));
         break;
-    case WarpModel::dense:
-    case WarpModel::composed:
+    case WarpModel::Dense:
+    case WarpModel::Composed:
         header.count = warp.steps.empty() ? 0 : static_cast<shared::uint>(warp.steps.front().centers.size());
         for (const ThinPlate& step : warp.steps) {
             for (cv::Point2d coefficient : step.affine)
@@ -365,13 +365,13 @@ Polyline outline_today(const Warp& warp, const Polyline& day0)
 const char* name_of(WarpModel model)
 {
     switch (model) {
-    case WarpModel::radial:
+    case WarpModel::Radial:
         return "radial";
-    case WarpModel::grid:
+    case WarpModel::Grid:
         return "grid";
-    case WarpModel::dense:
+    case WarpModel::Dense:
         return "dense";
-    case WarpModel::composed:
+    case WarpModel::Composed:
         return "composed";
     }
     return "";

@@ -19,15 +19,15 @@ namespace wound {
 
 enum class WarpModel : std::uint32_t
 {
-    radial, // closed form in star-shaped coordinates about the centroid; scales a hull of the border exactly,
+    Radial, // closed form in star-shaped coordinates about the centroid; scales a hull of the border exactly,
             // never folds
-    grid,   // the composed map on a grid that is finest at the centroid, interpolated bilinearly
-    dense,  // the paper's: one thin-plate step; folds for small r
-    composed // thin-plate steps of at most kStepScale each: the reference
+    Grid,   // the composed map on a grid that is finest at the centroid, interpolated bilinearly
+    Dense,  // the paper's: one thin-plate step; folds for small r
+    Composed // thin-plate steps of at most step_scale each: the reference
 };
 
-inline constexpr double kStepScale = .62; // a full step scales lengths about the centroid by this
-inline constexpr double kSmallestScale =
+inline constexpr double step_scale = .62; // a full step scales lengths about the centroid by this
+inline constexpr double smallest_scale =
     .02; // sqrt r of the most contracted wound drawn: about a texel; below it is closed
 
 /// One thin-plate step: p -> p + a0 + a1 x + a2 y + sum_i w_i |p-c_i|^2 log |p-c_i|^2. The last centres are
@@ -42,7 +42,7 @@ struct ThinPlate
 /// A backward map. A default one is the identity.
 struct Warp
 {
-    WarpModel model = WarpModel::radial;
+    WarpModel model = WarpModel::Radial;
     double scale = 1; // sqrt(area ratio)
     cv::Point2d centroid;
     std::vector<double> radii;      // radial: of the hull at day 0, at equal angles from -pi
@@ -59,7 +59,7 @@ struct ContractionFlow
     cv::Point2d centroid;
     std::vector<cv::Point2d> control_points;
     std::vector<double> radii;
-    std::vector<ThinPlate> steps; // steps[k] maps points at scale kStepScale^(k+1) back to kStepScale^k
+    std::vector<ThinPlate> steps; // steps[k] maps points at scale step_scale^(k+1) back to step_scale^k
 };
 
 /// `border` and `control_points` in patch coordinates within (-1,1). Of control points that coincide to half
@@ -67,8 +67,8 @@ struct ContractionFlow
 ContractionFlow prepare_flow(const std::vector<cv::Point2d>& border,
                              const std::vector<cv::Point2d>& control_points, cv::Point2d centroid);
 
-/// The map for an area ratio >= 0; ratios under kSmallestScale^2 are drawn as that. Continuous in the ratio.
-Warp make_warp(const ContractionFlow& flow, double area_ratio, WarpModel model = WarpModel::grid);
+/// The map for an area ratio >= 0; ratios under smallest_scale^2 are drawn as that. Continuous in the ratio.
+Warp make_warp(const ContractionFlow& flow, double area_ratio, WarpModel model = WarpModel::Grid);
 
 /// Appends the warp's numbers to `values` in the layout of shaders/shared/warp.h, in single precision.
 shared::WarpHeader pack(const Warp& warp, std::vector<shared::vec2>& values);

@@ -1,0 +1,364 @@
+// The float formulas of shaders/lib against the double-precision reference in wound/, over their whole range.
+#include "tests/shaders/shading_case.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <random>
+
+#include "passes/shading.hpp"
+#include "tests/support/gpu.hpp"
+#include "tests/support/layout.hpp"
+
+using shared::ShadingCase;
+
+namespace {
+
+constexpr double tiny = 1e-30; // below it floats may flush to 0
+
+std::vector<glm::vec3> evaluate(const std::vector<ShadingCase>& cases)
+{
+    constexpr std::uint32_t width = 1024;
+    const std::uint32_t height = static_cast<std::uint32_t>((cases.size() + width - 1) / width);
+    graph::Graph graph;
+    const graph::ImageId results = graph.image("results", {width, height, VK_FORMAT_R32G32B32A32_SFLOAT});
+    graph::ComputePass& pass = graph.compute("shading test", "shading_test.comp");
+    pass.buffer<ShadingCase>("CaseBlock", cases);
+    pass.store("results", results);
+    pass.dispatch(width, height);
+    const graph::ReadbackId back = graph.readback("results", results);
+    gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
+    const gpu::FrameResult frame = executor.run(graph);
+    const cv::Mat4f values = frame.mat(back);
+    std::vector<glm::vec3> out;
+    for (std::size_t n = 0; n < cases.size(); ++n) {
+        const cv::Vec4f v = values(static_cast<int>(n / width), static_cast<int>(n % width));
+        out.emplace_back(v[0], v[1], v[2]);
+    }
+    return out;
+}
+
+bool is_color(const glm::vec3& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && v.x >= 0 && v.y >= 0 && v.z >= 0;
+}
+
+cv::Vec3d to_double(const glm::vec3& v)
+{
+    return {v.x, v.y, v.z};
+}
+
+double max_difference(const glm::vec3& a, const cv::Vec3d& b)
+{
+    return cv::norm(to_double(a) - b, cv::NORM_INF);
+}
+
+glm::vec3 direction(double z, double phi)
+{
+    const double across = std::sqrt(std::max(0.0, 1 - z * z));
+    return glm::vec3(glm::dvec3(across * std::cos(phi), across * std::sin(phi), z));
+}
+
+using ShadingOnGpu = gpu_test::Test;
+
+} // namespace
+
+// The lobe's exponent is (|h| / (slope h.z))^2, so a rounding of h by one float step moves it by more the
+// narrower the slope and the lower h. The test allows what 2 steps in either component of h can do, and 1e-5
+// besides.
+TEST_F(ShadingOnGpu, WardEqualsTheReferenceUpToTheRoundingOfItsHalfVector)
+{
+    constexpr double step = 2.5e-7;
+    std::vector<ShadingCase> cases;
+    for (shared::uint model : {shared::WARD_PUBLISHED, shared::WARD_DUER, shared::WARD_BOUNDED})
+        for (glm::vec2 slope : {glm::vec2(1e-4f), glm::vec2(1e-3f, 1), glm::vec2(0.1f), glm::vec2(0.4f),
+                                glm::vec2(1.5f), glm::vec2(1.5f, 1e-4f)})
+            for (double zi : {1.0, 0.9, 0.5, 0.1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-20, 0.0, -0.5})
+                for (double zo : {1.0, 0.9, 0.3, 1e-2, 1e-4, 1e-6, 1e-20, 0.0, -1.0})
+                    for (double phi : {0.0, 0.3, 0.5, 0.999, 1.0, 1.5}) {
+                        ShadingCase c{};
+                        c.formula = shared::FORMULA_WARD;
+                        c.model = model;
+                        c.params.slope = slope;
+                        c.a = direction(zi, 0);
+                        c.b = direction(zo, phi * std::numbers::pi);
+                        cases.push_back(c);
+                    }
+    const std::vector<glm::vec3> values = evaluate(cases);
+    double worst = 0;
+    for (std::size_t n = 0; n < cases.size(); ++n) {
+        const ShadingCase& c = cases[n];
+        const cv::Vec3d i = to_double(c.a), o = to_double(c.b);
+        const double ax = c.params.slope.x, ay = c.params.slope.y, value = values[n].x;
+        ASSERT_TRUE(is_color(values[n])) << value << " in case " << n;
+        const auto model = static_cast<optics::WardModel>(c.model);
+        const double reference = optics::ward(model, ax, ay, i, o) * std::max(0.0, i[2]);
+
+        const double wide = 1e9; // a lobe so wide that only what stands before it is left
+        const double peak =
+            optics::ward(model, wide, wide, i, o) * std::max(0.0, i[2]) * wide * wide / (ax * ay);
+        const double hz = std::max(i[2], optics::ward_min_cosine) + std::max(o[2], optics::ward_min_cosine);
+        const double steepness = std::hypot((i[0] + o[0]) / ax, (i[1] + o[1]) / ay) / hz;
+        const double slack = step * std::hypot(1 / ax, 1 / ay) / hz;
+        const double low = std::exp(-std::pow(steepness + slack, 2));
+        const double high = std::exp(-std::pow(std::max(0.0, steepness - slack), 2));
+        const double relative = 1e-5 + 3e-7 * steepness * steepness; // exp() itself: 3 + 2 |x| float steps
+        EXPECT_GE(value, peak * low * (1 - relative) - tiny) << "case " << n << ", reference " << reference;
+        EXPECT_LE(value, peak * high * (1 + relative) + tiny) << "case " << n << ", reference " << reference;
+        if (ax >= 0.1f && ay >= 0.1f && hz > 0.05 && reference > 1e-6)
+            worst = std::max(worst, std::abs(value / reference - 1));
+    }
+    EXPECT_LT(worst, 2e-5); // relative, for slopes of .1 and more
+    RecordProperty("ward_worst_relative_error", std::to_string(worst));
+}
+
+TEST_F(ShadingOnGpu, TranslucencyEqualsTheReference)
+{
+    std::vector<ShadingCase> cases;
+    for (shared::uint model : {shared::TRANSLUCENCY_PUBLISHED, shared::TRANSLUCENCY_BOUNDED})
+        for (float alpha : {0.2f, 0.0f, -0.01f, 100.0f})
+            for (float beta : {0.75f, 1e-6f, 40.0f})
+                for (float gamma : {0.0f, 0.5f, 10.0f, 100.0f})
+                    for (float bound : {0.4285714f, 0.0f, 1e-3f, 100.0f})
+                        for (float d : {0.0f, 1e-6f, 0.9f, 2.0f, 3.1f, 100.0f, 1e6f}) {
+                            if (alpha * d + beta <= 0)
+                                continue; // refused when the scene is loaded
+                            ShadingCase c{};
+                            c.formula = shared::FORMULA_TRANSLUCENCY;
+                            c.model = model;
+                            c.params.alpha = alpha;
+                            c.params.beta = beta;
+                            c.params.gamma = gamma;
+                            c.params.translucency_bound_4 =
+                                static_cast<float>(std::pow(std::max<double>(bound, 1e-9), -4));
+                            c.a.x = bound;
+                            c.number = d;
+                            cases.push_back(c);
+                        }
+    const std::vector<glm::vec3> values = evaluate(cases);
+    for (std::size_t n = 0; n < cases.size(); ++n) {
+        const ShadingCase& c = cases[n];
+        ASSERT_TRUE(is_color(values[n])) << values[n].x << " in case " << n;
+        optics::Shading shading;
+        shading.alpha = c.params.alpha;
+        shading.beta = c.params.beta;
+        shading.gamma = c.params.gamma;
+        shading.translucency_model = static_cast<optics::TranslucencyModel>(c.model);
+        shading.rho_d = 0;
+        shading.rho_ts = c.a.x > 0 ? 1.0 / c.a.x : 0; // gives this bound
+        const double reference =
+            std::min(optics::translucency(shading, c.number), std::exp2(31.0)); // as far as the shader goes
+        // log2 is good to 5e-7 near 1, and alpha d + beta to a float step; gamma multiplies both.
+        const double relative = 5e-6 + 1e-6 * c.params.gamma + 3e-7 * std::abs(std::log2(reference + tiny));
+        EXPECT_NEAR(values[n].x, reference, relative * reference + 2e-9) << "case " << n;
+        if (c.model == shared::TRANSLUCENCY_BOUNDED) {
+            EXPECT_LE(values[n].x, c.a.x * (1 + 1e-6f) + 2e-9f);
+        }
+    }
+}
+
+TEST_F(ShadingOnGpu, BlendEqualsTheReferenceAndIsExactAtItsEnds)
+{
+    std::vector<ShadingCase> cases;
+    for (shared::uint model : {shared::BLEND_PUBLISHED, shared::BLEND_CORRECTED})
+        for (float r :
+             {-1.0f, -1e-20f, 0.0f, 1e-38f, 1e-12f, 1e-6f, 0.01f, 0.3f, 0.7f, 0.999999f, 1.0f, 2.0f}) {
+            ShadingCase c{};
+            c.formula = shared::FORMULA_BLEND;
+            c.model = model;
+            c.number = r;
+            c.a = {0.5f, 0.03f, 0};
+            c.b = {0.7f, 0.2f, 1};
+            c.c = {0.62f, 0.4f, 0.31f};
+            cases.push_back(c);
+        }
+    const std::vector<glm::vec3> values = evaluate(cases);
+    for (std::size_t n = 0; n < cases.size(); ++n) {
+        const ShadingCase& c = cases[n];
+        const cv::Vec3d reference = optics::blend(static_cast<optics::BlendModel>(c.model), to_double(c.a),
+                                                  to_double(c.b), to_double(c.c), c.number);
+        EXPECT_LT(max_difference(values[n], reference), 1e-6) << "r = " << c.number;
+        EXPECT_TRUE(is_color(values[n]));
+        if (c.number <= 0) {
+            EXPECT_EQ(values[n], c.a);
+        }
+        if (c.number >= 1 && c.model == shared::BLEND_CORRECTED) {
+            EXPECT_EQ(values[n], c.c);
+        }
+    }
+}
+
+TEST_F(ShadingOnGpu, ColorCurvesEqualTheReference)
+{
+    std::vector<ShadingCase> cases;
+    for (shared::uint formula :
+         {shared::FORMULA_SRGB_FROM_LINEAR, shared::FORMULA_LINEAR_FROM_SRGB, shared::FORMULA_SHOULDER})
+        for (int n = 0; n <= 1024; ++n) {
+            ShadingCase c{};
+            c.formula = formula;
+            const float x = static_cast<float>(n) / 1024;
+            c.a = {x, x * x * x, formula == shared::FORMULA_SHOULDER ? 65504 * x : x * 0.05f};
+            cases.push_back(c);
+        }
+    const auto shoulder = [](double x) {
+        return x < 0.8 ? x : 1 - 0.04 / (x - 0.6);
+    }; // a hyperbola through (.8, .8)
+    const std::vector<glm::vec3> values = evaluate(cases);
+    for (std::size_t n = 0; n < cases.size(); ++n)
+        for (int k = 0; k < 3; ++k) {
+            const double x = cases[n].a[k];
+            const double reference =
+                cases[n].formula == shared::FORMULA_SRGB_FROM_LINEAR   ? base::srgb_from_linear(x)
+                : cases[n].formula == shared::FORMULA_LINEAR_FROM_SRGB ? base::linear_from_srgb(x)
+                                                                       : shoulder(x);
+            EXPECT_NEAR(values[n][k], reference, 2e-6) << "formula " << cases[n].formula << " of " << x;
+            EXPECT_LE(values[n][k], 1);
+        }
+}
+
+TEST_F(ShadingOnGpu, FramesAreOrthonormalWhateverTheInterpolatedVectorsAre)
+{
+    const std::vector<glm::vec3> vectors = {
+        {0, 0, 1}, {0, 0, -1},        {1, 0, 0},     {0.3f, -0.5f, 0.2f}, {1e-20f, 0, 0},
+        {0, 0, 0}, {1e20f, 1e20f, 0}, {0, 3, 1e-6f}, {-0.6f, 0, -0.8f},   {0, -1e-36f, 0}};
+    std::vector<ShadingCase> cases;
+    for (const glm::vec3& normal : vectors)
+        for (const glm::vec3& tangent : vectors)
+            for (float sign : {1.0f, -1.0f})
+                for (shared::uint formula :
+                     {shared::FORMULA_TANGENT, shared::FORMULA_BITANGENT, shared::FORMULA_NORMAL}) {
+                    ShadingCase c{};
+                    c.formula = formula;
+                    c.a = normal;
+                    c.b = tangent;
+                    c.number = sign;
+                    cases.push_back(c);
+                }
+    const std::vector<glm::vec3> values = evaluate(cases);
+    for (std::size_t n = 0; n < cases.size(); n += 3) {
+        const glm::dvec3 t(values[n]), b(values[n + 1]), normal(values[n + 2]);
+        const glm::dmat3 frame(t, b, normal), gram = glm::transpose(frame) * frame;
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 3; ++column)
+                EXPECT_NEAR(gram[column][row], row == column, 2e-6) << "case " << n;
+        EXPECT_NEAR(glm::determinant(frame), cases[n].number, 1e-5) << "case " << n;
+        const glm::dvec3 given(cases[n].a);
+        if (glm::length(given) > 1e-30) {
+            EXPECT_NEAR(glm::dot(normal, given) / glm::length(given), 1, 1e-6) << "case " << n;
+        }
+    }
+}
+
+TEST_F(ShadingOnGpu, NormalsBentAwayAreTurnedJustIntoView)
+{
+    std::vector<ShadingCase> cases;
+    for (double z : {1.0, 0.5, 0.02, 0.0, -0.3, -0.999, -1.0}) {
+        ShadingCase c{};
+        c.formula = shared::FORMULA_BEND;
+        c.a = direction(z, 1);
+        c.b = {0, 0, 1};
+        cases.push_back(c);
+    }
+    const std::vector<glm::vec3> values = evaluate(cases);
+    for (std::size_t n = 0; n < cases.size(); ++n) {
+        EXPECT_NEAR(glm::length(values[n]), 1, 1e-6);
+        EXPECT_GE(values[n].z, 0.009f) << cases[n].a.z;
+        if (cases[n].a.z > 0.01f) {
+            EXPECT_EQ(values[n], cases[n].a);
+        }
+    }
+}
+
+TEST_F(ShadingOnGpu, WholeEquationEqualsTheReference)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::vector<ShadingCase> cases;
+    std::vector<cv::Vec3d> references;
+    for (int n = 0; n < 3000; ++n) {
+        optics::Shading shading;
+        shading.alpha_x = 0.1 + unit(random);
+        shading.alpha_y = 0.1 + unit(random);
+        shading.ward_model = static_cast<optics::WardModel>(n % 3);
+        shading.translucency_model = static_cast<optics::TranslucencyModel>(n / 3 % 2);
+        optics::Light light;
+        light.kind = static_cast<optics::LightKind>(n / 6 % 3);
+        light.position = {2 * unit(random) - 1, 2 * unit(random) - 1, unit(random)};
+        light.direction = cv::normalize(light.position);
+        light.strength = {unit(random), 2 * unit(random), 3 * unit(random)};
+        light.reference_distance_m = 0.2 + unit(random);
+        light.translucency_distance = optics::paper_distance(0.2, light.reference_distance_m);
+
+        ShadingCase c{};
+        c.formula = shared::FORMULA_SHADE;
+        c.model = static_cast<shared::uint>(shading.ward_model);
+        c.translucency = static_cast<shared::uint>(shading.translucency_model);
+        c.number = static_cast<float>(unit(random));
+        c.a = glm::vec3(0.1 * unit(random), 0.1 * unit(random), n % 50 == 0 ? 0.0 : -0.1 * unit(random));
+        c.b = direction(unit(random), 6 * unit(random));
+        c.c = glm::vec3(unit(random), unit(random), unit(random));
+        c.params = passes::shading_params(shading);
+        c.light = passes::lighting(std::span(&light, 1)).light[0];
+        cases.push_back(c);
+
+        optics::ShadedPoint point;
+        point.position = to_double(c.a);
+        point.to_viewer = to_double(c.b);
+        point.albedo = to_double(c.c);
+        references.push_back(optics::shade(shading, light, point, c.number));
+    }
+    const std::vector<glm::vec3> values = evaluate(cases);
+    for (std::size_t n = 0; n < cases.size(); ++n) {
+        EXPECT_TRUE(is_color(values[n]));
+        EXPECT_LT(max_difference(values[n], references[n]),
+                  5e-5 * cv::norm(references[n], cv::NORM_INF) + 1e-7)
+            << n;
+    }
+}
+
+TEST_F(ShadingOnGpu, NoLightNearNoFarNoneInsideTheSkinGivesAnythingButAColor)
+{
+    std::vector<ShadingCase> cases;
+    for (shared::uint kind :
+         {shared::LIGHT_DIRECTIONAL, shared::LIGHT_POINT, shared::LIGHT_POINT_WITHOUT_FALLOFF})
+        for (shared::uint model : {0u, 1u, 2u})
+            for (float slope : {1e-4f, 0.4f, 1.5f})
+                for (glm::vec3 place : {glm::vec3(0), glm::vec3(0, 0, 1e-20f), glm::vec3(0, 0, 1e-4f),
+                                        glm::vec3(1e3f), glm::vec3(0, 0, -1), glm::vec3(1, 0, 1e-9f)})
+                    for (float z : {1.0f, 1e-7f, 0.0f, -1.0f}) {
+                        ShadingCase c{};
+                        c.formula = shared::FORMULA_SHADE;
+                        c.model = model;
+                        c.translucency = model % 2;
+                        c.number = 1;
+                        c.b = direction(z, 3);
+                        c.c = glm::vec3(1);
+                        c.params = passes::shading_params(optics::Shading{});
+                        c.params.slope = glm::vec2(slope, 1e-4f);
+                        c.light = passes::lighting(std::vector<optics::Light>(1)).light[0];
+                        c.light.kind = kind;
+                        c.light.position = place;
+                        c.light.strength = glm::vec3(1e4f);
+                        c.light.reference_distance = 1e3f;
+                        cases.push_back(c);
+                    }
+    const std::vector<glm::vec3> values = evaluate(cases);
+    for (std::size_t n = 0; n < cases.size(); ++n)
+        EXPECT_TRUE(is_color(values[n])) << values[n].x << " in case " << n;
+}
+
+TEST_F(ShadingOnGpu, SharedStructsLieAlikeInBothLanguages)
+{
+    using shared::Light, shared::ShadingParams;
+    gpu_test::expect_layout("shading_test.comp", "ShadingParams", sizeof(ShadingParams),
+                            {CICATRIX_MEMBER(ShadingParams, rho_d), CICATRIX_MEMBER(ShadingParams, rho_ts),
+                             CICATRIX_MEMBER(ShadingParams, rho_s), CICATRIX_MEMBER(ShadingParams, alpha),
+                             CICATRIX_MEMBER(ShadingParams, beta), CICATRIX_MEMBER(ShadingParams, gamma),
+                             CICATRIX_MEMBER(ShadingParams, translucency_bound_4),
+                             CICATRIX_MEMBER(ShadingParams, slope), CICATRIX_MEMBER(ShadingParams, ambient)});
+    gpu_test::expect_layout("shading_test.comp", "Light", sizeof(Light),
+                            {CICATRIX_MEMBER(Light, position), CICATRIX_MEMBER(Light, kind),
+                             CICATRIX_MEMBER(Light, direction), CICATRIX_MEMBER(Light, reference_distance),
+                             CICATRIX_MEMBER(Light, strength), CICATRIX_MEMBER(Light, distance_scale),
+                             CICATRIX_MEMBER(Light, distance_offset)});
+}

@@ -1,0 +1,120 @@
+// What wound_texture.comp and wound_relief.comp compute, beside the warp, against independent
+// double-precision versions.
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+#include "passes/wound_texture.hpp"
+#include "tests/support/gpu.hpp"
+#include "wound/healing/phases.hpp"
+#include "wound/prepare.hpp"
+#include "wound/synthetic/synthetic.hpp"
+
+namespace {
+
+using WoundFormulas = gpu_test::Test;
+
+cv::Mat4f read(const gpu::FrameResult& frame, graph::ReadbackId id)
+{
+    cv::Mat4f values;
+    frame.mat(id).convertTo(values, CV_32F);
+    return values;
+}
+
+// The maps hold half floats: 11 bits, and a rank that is off by that turns a texel by three times as much.
+TEST_F(WoundFormulas, PhasesColourTheBedAsTheReferenceDoes)
+{
+    constexpr int side = 64;
+    wound::Patch patch{cv::Mat3f(side, side), cv::Mat1f(side, side, 1.f), cv::Mat1f(side, side, 1.f),
+                       cv::Mat1f(side, side, 0.f), 30};
+    cv::RNG random(7);
+    random.fill(patch.color, cv::RNG::UNIFORM, 0, 1);
+    patch.color(0, 0) = {0, 0, 0}; // the extremes
+    patch.color(0, 1) = {1, 1, 1};
+    patch.color(0, 2) = {1, 0, 0};
+    patch.color(0, 3) = {0, 1, 0};
+    const double luminance = wound::bed_luminance(patch);
+    const passes::WoundMaps maps = passes::upload_wound(gpu_test::device(), patch);
+    gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
+
+    std::vector<wound::Phase> phases{{1, 1, 1, 1}, {0, 0, 0, 0}, {.3, 0, .9, .5}};
+    for (const double day : {0., .7, 2., 4., 7., 12., 30.})
+        phases.push_back(wound::phase_at(day, 30));
+    for (const wound::Phase& phase : phases) {
+        wound::WoundDay day;
+        day.in_phases = true;
+        day.phase = phase;
+        graph::Graph graph;
+        const graph::ReadbackId id =
+            graph.readback("color", passes::add_wound_texture(graph, "", maps, day).color);
+        const cv::Mat4f drawn = read(executor.run(graph), id);
+        double worst = 0;
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                const cv::Vec3d expected = wound::tinted(cv::Vec3d(patch.color(y, x)), phase, luminance);
+                for (int c = 0; c < 3; ++c) {
+                    ASSERT_TRUE(std::isfinite(drawn(y, x)[c]) && drawn(y, x)[c] >= 0);
+                    worst = std::max(worst, std::abs(drawn(y, x)[c] - expected[c]));
+                }
+            }
+        EXPECT_LT(worst, .003) << "clot " << phase.clot << ", fibrin " << phase.fibrin << ", granulation "
+                               << phase.granulation;
+    }
+}
+
+/// Depth today, mm, from the state map; the nearest texel beyond the edge.
+double depth(const cv::Mat4f& state, int x, int y, double scale, double scar_mm)
+{
+    const cv::Vec4f s = state(std::clamp(y, 0, state.rows - 1), std::clamp(x, 0, state.cols - 1));
+    return scale * s[0] - scar_mm * std::max(double(s[3]) - s[2], 0.);
+}
+
+TEST_F(WoundFormulas, ReliefIsTheSlopeAndTheOpennessOfTheDepth)
+{
+    wound::Preparation preparation;
+    preparation.patch_size = 128;
+    const wound::PreparedWound wound = wound::prepare(wound::synthesize({}), preparation);
+    const passes::WoundMaps maps = passes::upload_wound(gpu_test::device(), wound.patch);
+    gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
+    const double texel_mm = wound.patch.width_mm / 128, reach = 4 / texel_mm;
+
+    for (const double today : {0., 6., 15., 60.}) {
+        const wound::WoundDay day = wound::wound_at(wound, {}, today);
+        graph::Graph graph;
+        const passes::WoundTexture texture = passes::add_wound_texture(graph, "", maps, day);
+        const graph::ReadbackId state_id = graph.readback("state", texture.state),
+                                relief_id = graph.readback("relief", texture.relief);
+        const gpu::FrameResult frame = executor.run(graph);
+        const cv::Mat4f state = read(frame, state_id), relief = read(frame, relief_id);
+        const auto at = [&](int x, int y) { return depth(state, x, y, day.depth_scale, day.scar.height_mm); };
+        for (int y = 0; y < 128; ++y)
+            for (int x = 0; x < 128; ++x) {
+                double du = 0, dv = 0;
+                for (int k = -1; k <= 1; ++k) {
+                    const double weight = (2 - std::abs(k)) / (8 * texel_mm);
+                    du += weight * (at(x + 1, y + k) - at(x - 1, y + k));
+                    dv += weight * (at(x + k, y + 1) - at(x + k, y - 1));
+                }
+                double open = 0;
+                for (int direction = 0; direction < 6; ++direction) {
+                    const double angle = 2 * std::numbers::pi * (direction + .5) / 6;
+                    double horizon = 0; // elevation
+                    for (const double share : {1 / 16., 4 / 16., 9 / 16., 1.}) {
+                        const int i = x + int(std::lround(std::cos(angle) * share * reach)),
+                                  j = y + int(std::lround(std::sin(angle) * share * reach));
+                        horizon = std::max(
+                            horizon, std::atan2(at(x, y) - at(i, j), std::max(share * reach, 1.) * texel_mm));
+                    }
+                    open += std::pow(std::cos(horizon), 2) / 6;
+                }
+                ASSERT_NEAR(relief(y, x)[0], du, .002 + .002 * std::abs(du))
+                    << "day " << today << " at " << x << ", " << y;
+                ASSERT_NEAR(relief(y, x)[1], dv, .002 + .002 * std::abs(dv))
+                    << "day " << today << " at " << x << ", " << y;
+                ASSERT_NEAR(relief(y, x)[2], open, .002) << "day " << today << " at " << x << ", " << y;
+                ASSERT_NEAR(relief(y, x)[3], at(x, y), .003) << "day " << today << " at " << x << ", " << y;
+            }
+    }
+}
+
+} // namespace

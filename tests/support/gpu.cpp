@@ -1,0 +1,37 @@
+#include "tests/support/gpu.hpp"
+
+#ifdef __SANITIZE_ADDRESS__
+// The synchronisation validation of the 1.3.239 layer leaves
+// its command buffers' states behind, each holding the other.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions()
+{
+    return "leak:libVkLayer_khronos_validation.so\n";
+}
+#endif
+
+namespace gpu_test {
+
+gpu::Device& device()
+{
+    static gpu::Device shared({.validation = true});
+    return shared;
+}
+
+const graph::ShaderLibrary& shaders()
+{
+    static const graph::ShaderLibrary library = [] {
+        graph::ShaderLibrary all;
+        all.add(graph::test_shaders());
+        return all;
+    }();
+    return library;
+}
+
+void Test::TearDown()
+{
+    for (const std::string& message : device().validation_messages())
+        ADD_FAILURE() << "validation: " << message;
+}
+
+} // namespace gpu_test
