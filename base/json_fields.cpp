@@ -43,6 +43,24 @@ double Fields::number(const std::string& name, double fallback, double low, doub
     return number;
 }
 
+double Fields::required_number(const std::string& name, double low, double high)
+{
+    if (!has(name))
+        fail(name, "is missing", "add this field");
+    return number(name, low, low, high);
+}
+
+std::vector<double> Fields::number_or_list(const std::string& name, double low, double high)
+{
+    const json* value = get(name);
+    if (value == nullptr || !value->is_array())
+        return {required_number(name, low, high)};
+    if (value->empty())
+        fail(name, "is an empty array", "give one number or more");
+    check_numbers(name, *value, value->size(), low, high);
+    return value->get<std::vector<double>>();
+}
+
 std::int64_t Fields::integer(const std::string& name, std::int64_t fallback, std::int64_t low,
                              std::int64_t high)
 {
@@ -101,7 +119,7 @@ void Fields::finish() const
 {
     for (const auto& [name, value] : object_.items())
         if (!asked_.contains(name))
-            throw InputError(where(name), "is no field of a scene there",
+            throw InputError(where(name), "is no field that is known there",
                              fmt::format("known are {}", fmt::join(asked_, ", ")));
 }
 

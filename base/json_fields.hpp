@@ -1,9 +1,11 @@
 // Strict reading of one JSON object: each field is asked for by name, wrong types and out-of-range numbers
 // are errors that name file and field, and what was not asked for is an error too.
 #pragma once
+#include <array>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "base/file.hpp"
 
@@ -19,6 +21,10 @@ class Fields
     /// The field as it is, marked as known; null when absent.
     const nlohmann::json* get(const std::string& name);
     double number(const std::string& name, double fallback, double low, double high);
+    /// The same, and its absence is an error.
+    double required_number(const std::string& name, double low, double high);
+    /// Required: a number, or an array of at least one.
+    std::vector<double> number_or_list(const std::string& name, double low, double high);
     std::int64_t integer(const std::string& name, std::int64_t fallback, std::int64_t low, std::int64_t high);
     bool boolean(const std::string& name, bool fallback);
     std::string text(const std::string& name, const std::string& fallback);

@@ -6,7 +6,7 @@
 #include "lib/reflectance.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const int MODEL = TWO_STREAM;
+layout(constant_id = 0) const int MODEL = REFLECTANCE_TWO_STREAM;
 
 layout(scalar, set = 0, binding = 0) uniform Parameters { LutParameters parameters; };
 layout(scalar, set = 0, binding = 1) readonly buffer Layers { LutLayer layers[]; };
@@ -57,7 +57,7 @@ vec3 reflect_band(uint band, uint base, LutDay day, float injury_mm)
             optics = bands[(base + i) * parameters.bands + band];
         }
         float n_next = end ? parameters.n_below : layer.n;
-        if (MODEL >= TWO_STREAM_PAPER) {
+        if (MODEL >= REFLECTANCE_TWO_STREAM_PAPER) {
             stack = over(stack, boundary(n, n_next));
             if (!end)
                 stack = over(stack, tissue_slab(MODEL, optics.sigma_a, optics.sigma_s_reduced, layer.g, layer.thickness_mm));
@@ -75,7 +75,7 @@ vec3 reflect_band(uint band, uint base, LutDay day, float injury_mm)
         pending = layer;
         pending_optics = optics;
     }
-    return MODEL >= TWO_STREAM_PAPER ? stack.r_top - diffuse_fresnel(parameters.n_above, n_first)
+    return MODEL >= REFLECTANCE_TWO_STREAM_PAPER ? stack.r_top - diffuse_fresnel(parameters.n_above, n_first)
                                      : paper_top_factor(MODEL, parameters.n_above, n_first) * paper_sum;
 }
 

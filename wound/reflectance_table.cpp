@@ -1,7 +1,6 @@
 #include "wound/reflectance_table.hpp"
 
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
@@ -20,52 +19,27 @@ namespace {
 
 constexpr std::uint64_t table_version = 2; // raise when a model's result or the mapping changes
 
-// FNV-1a over the bit patterns of everything a table depends on.
-class Key
+void add(base::Hash& key, const optics::Layer& layer)
 {
-  public:
-    void add(std::uint64_t bits)
-    {
-        for (int byte = 0; byte < 8; ++byte) {
-            hash_ ^= (bits >> (8 * byte)) & 0xFF;
-            hash_ *= 0x100000001B3u;
-        }
-    }
-    void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-    void add(const optics::Layer& layer)
-    {
-        for (double value : {layer.g, layer.n, layer.thickness_mm})
-            add(value);
-        for (const auto* values : {&layer.sigma_a, &layer.sigma_s_reduced}) {
-            add(static_cast<std::uint64_t>(values->size()));
-            for (double value : *values)
-                add(value);
-        }
-    }
-    std::uint64_t value() const { return hash_; }
+    key.add(layer.g).add(layer.n).add(layer.thickness_mm);
+    for (const auto* values : {&layer.sigma_a, &layer.sigma_s_reduced})
+        key.add(std::as_bytes(std::span(*values)));
+}
 
-  private:
-    std::uint64_t hash_ = 0xCBF29CE484222325u;
-};
-
+/// Of everything that a table depends on.
 std::uint64_t table_key(std::span<const optics::TissueDay> rows, std::uint32_t width,
                         optics::ReflectanceModel model, const optics::ReflectanceOptions& options)
 {
-    Key key;
-    for (std::uint64_t bits :
-         {table_version, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(model),
-          static_cast<std::uint64_t>(options.incidence), static_cast<std::uint64_t>(options.fresnel),
-          static_cast<std::uint64_t>(options.angles), static_cast<std::uint64_t>(options.quadrature),
-          options.photons, options.seed})
-        key.add(bits);
+    base::Hash key;
+    key.add(table_version).add(width).add(model).add(options.incidence).add(options.fresnel);
+    key.add(options.angles).add(options.quadrature).add(options.photons).add(options.seed);
     for (const optics::TissueDay& day : rows) {
-        for (double value : {day.missing_ratio, day.regrown_ratio, day.intact.n_above, day.intact.n_below})
-            key.add(value);
-        key.add(day.cover);
-        key.add(day.regrown);
-        key.add(static_cast<std::uint64_t>(day.intact.layers.size()));
+        key.add(day.missing_ratio).add(day.regrown_ratio).add(day.intact.n_above).add(day.intact.n_below);
+        add(key, day.cover);
+        add(key, day.regrown);
+        key.add(day.intact.layers.size());
         for (const optics::Layer& layer : day.intact.layers)
-            key.add(layer);
+            add(key, layer);
     }
     return key.value();
 }

@@ -1,15 +1,10 @@
-// Diffuse reflectance of layered tissue in single precision: the analytic levels (docs/optics.md). The double-precision reference is
-// wound/reflectance.cpp; a test compares the two. All functions are finite for sigma <= 1e6 mm^-1, any thickness,
+// Diffuse reflectance of layered tissue in single precision: the analytic models (docs/optics.md). The double-precision reference is
+// wound/optics/reflectance.cpp; a test compares the two. All functions are finite for sigma <= 1e6 mm^-1, any thickness,
 // n in 1..3, g in -1..1, except the printed equations, which overflow far outside their domain.
 #ifndef LIB_REFLECTANCE_GLSL
 #define LIB_REFLECTANCE_GLSL
+#include "../shared/models.h"
 
-const int PUBLISHED = 0;
-const int CLAMPED = 1;
-const int EXPONENTIAL = 2;
-const int TWO_STREAM_PAPER = 3;
-const int TWO_STREAM = 4;
-const int CALIBRATED = 5;
 
 // Henyey & Greenstein 1941, "Diffuse radiation in the galaxy": the integral over the backward half, multiplied out by the
 // conjugate because the textbook form is 0/0 at g = 0.
@@ -99,9 +94,9 @@ Element over(Element upper, Element lower)
 
 Element tissue_slab(int model, vec3 sigma_a, vec3 sigma_s_reduced, float g, float thickness_mm)
 {
-    if (model == TWO_STREAM_PAPER)
+    if (model == REFLECTANCE_TWO_STREAM_PAPER)
         return slab(sigma_s_reduced * backward_fraction(g), sigma_a, thickness_mm);
-    if (model == CALIBRATED) {
+    if (model == REFLECTANCE_CALIBRATED) {
         // Fitted to the photon walk (docs/optics.md).
         vec3 S = 0.6433 * sigma_s_reduced * (sigma_s_reduced / max(sigma_s_reduced + 2.2131 * sigma_a, vec3(1e-30)));
         vec3 K = sigma_a * (1.9179 - 0.7631 * (sigma_a / max(sigma_a + sigma_s_reduced, vec3(1e-30))));
@@ -116,17 +111,17 @@ void paper_layer(int model, vec3 sigma_a, vec3 s, float thickness_mm, float lowe
                  out vec3 transmitted)
 {
     vec3 left, scattered;
-    if (model == EXPONENTIAL) {
+    if (model == REFLECTANCE_EXPONENTIAL) {
         left = exp(-(sigma_a + s) * min(thickness_mm, 1e24));
         scattered = 0.5 * s / max(sigma_a + s, vec3(1e-30)) * (1.0 - left * left);
     } else {
         vec3 d = vec3(thickness_mm);
-        if (model == CLAMPED)
+        if (model == REFLECTANCE_CLAMPED)
             d = min(d, 1.0 / max(sigma_a + s, vec3(1e-30)));
         vec3 ad = sigma_a * d;
         left = 1.0 - (sigma_a + s) * d;
         scattered = s * d * (1.0 - ad + ad * ad / 3.0);
-        if (model == CLAMPED)
+        if (model == REFLECTANCE_CLAMPED)
             left = max(left, vec3(0.0)); // rounding
     }
     reflected = scattered + lower_boundary * left * left;
@@ -137,7 +132,7 @@ void paper_layer(int model, vec3 sigma_a, vec3 s, float thickness_mm, float lowe
 float paper_top_factor(int model, float n_above, float n_first)
 {
     float outward = 1.0 - diffuse_fresnel(n_first, n_above), inward = 1.0 - diffuse_fresnel(n_above, n_first);
-    return model == EXPONENTIAL ? inward : model == CLAMPED ? min(outward, inward) : outward;
+    return model == REFLECTANCE_EXPONENTIAL ? inward : model == REFLECTANCE_CLAMPED ? min(outward, inward) : outward;
 }
 
 // A colour the forward pass can use: the printed equations go negative, above one and, far outside their domain, to NaN. Negative

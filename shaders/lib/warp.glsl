@@ -1,8 +1,8 @@
 // Choi & Chin 2014, section 3, with Arad et al. 1994: the backward warp, today's patch point -> day 0's, in single precision.
-// The double-precision twin is wound/warp.cpp. The including shader declares, in a buffer of layout(scalar), `vec2 warp_values[]`.
+// The double-precision twin is wound/warp/warp.cpp. The including shader declares, in a buffer of layout(scalar), `vec2 warp_values[]`.
+#include "../shared/models.h"
 #include "../shared/warp.h"
 
-const uint WARP_RADIAL = 0, WARP_GRID = 1, WARP_DENSE = 2, WARP_COMPOSED = 3; // wound::WarpModel
 
 vec2 warp_radial(WarpHeader warp, vec2 p)
 {

@@ -220,20 +220,25 @@ TEST(TissueFile, MistakesAreNamedWithFileAndField)
         std::string text = good_layer;
         return message_of(tissue_with(text.replace(text.find(from), from.size(), to)));
     };
-    EXPECT_THAT(message_of(R"({"layers":[]})"), HasSubstr("t.json: /unit: missing"));
-    EXPECT_THAT(message_of(R"({"unit":"1/m","layers":[]})"), HasSubstr("t.json: /unit: not a known unit"));
-    EXPECT_THAT(message_of(R"({"unit":"1/mm","layers":[]})"), HasSubstr("t.json: /layers: not a list"));
-    EXPECT_THAT(message_of("[1]"), HasSubstr("t.json: /: not an object"));
-    EXPECT_THAT(message_of(R"({"unit":"1/mm","colour":1,"layers":[]})"), HasSubstr("/colour: unknown field"));
-    EXPECT_THAT(layer_with("0.8", "1.5"), HasSubstr("t.json: /layers/0/g: 1.5 is out of range"));
-    EXPECT_THAT(layer_with("[1,2,3]", "[1,-2,3]"), HasSubstr("/layers/0/sigma_a/1: -2 is out of range"));
-    EXPECT_THAT(layer_with("[1,2,3]", "\"red\""), HasSubstr("/layers/0/sigma_a: not a number"));
-    EXPECT_THAT(layer_with("[1,2,3]", "[]"), HasSubstr("/layers/0/sigma_a: an empty array"));
-    EXPECT_THAT(layer_with("\"inf\"", "-1"), HasSubstr("/layers/0/thickness_mm: -1 is out of range"));
-    EXPECT_THAT(layer_with("\"n\":1.4,", ""), HasSubstr("/layers/0/n: missing"));
-    EXPECT_THAT(layer_with("\"n\":1.4", "\"n\":0.5"), HasSubstr("/layers/0/n: 0.5 is out of range"));
+    EXPECT_THAT(message_of(R"({"layers":[]})"), HasSubstr("t.json: /unit: is missing"));
+    EXPECT_THAT(message_of(R"({"unit":"1/m","layers":[]})"),
+                HasSubstr("t.json: /unit: is \"1/m\"; choose one of 1/mm, 1/cm"));
+    EXPECT_THAT(message_of(R"({"unit":"1/mm","layers":[]})"), HasSubstr("t.json: /layers: is not a list"));
+    EXPECT_THAT(message_of("[1]"), HasSubstr("t.json: : must be an object"));
+    EXPECT_THAT(message_of(R"({"unit":"1/mm","colour":1,"layers":[)" + good_layer + "]}"),
+                HasSubstr("/colour: is no field that is known there"));
+    EXPECT_THAT(layer_with("0.8", "1.5"),
+                HasSubstr("t.json: /layers/0/g: is 1.5; give a number from -1 to 1"));
+    EXPECT_THAT(layer_with("[1,2,3]", "[1,-2,3]"), HasSubstr("/layers/0/sigma_a: holds -2; give"));
+    EXPECT_THAT(layer_with("[1,2,3]", "\"red\""), HasSubstr("/layers/0/sigma_a: is \"red\"; give a number"));
+    EXPECT_THAT(layer_with("[1,2,3]", "[]"), HasSubstr("/layers/0/sigma_a: is an empty array"));
+    EXPECT_THAT(layer_with("\"inf\"", "-1"),
+                HasSubstr("/layers/0/thickness_mm: is -1; give a number from 0"));
+    EXPECT_THAT(layer_with("\"n\":1.4,", ""), HasSubstr("/layers/0/n: is missing"));
+    EXPECT_THAT(layer_with("\"n\":1.4", "\"n\":0.5"),
+                HasSubstr("/layers/0/n: is 0.5; give a number from 1 to 3"));
     EXPECT_THAT(layer_with("\"sigma_s\":10,", ""), HasSubstr("scattering is given twice or not at all"));
-    EXPECT_THAT(layer_with("\"name\":\"a\"", "\"name\":1"), HasSubstr("/layers/0/name: not a string"));
+    EXPECT_THAT(layer_with("\"name\":\"a\"", "\"name\":1"), HasSubstr("/layers/0/name: is 1; write a text"));
     EXPECT_THAT(
         message_of(tissue_with(good_layer + R"(,{"sigma_a":[1,2],"sigma_s":1,"n":1,"thickness_mm":1})")),
         HasSubstr("/layers/1: 2 channels where another layer has 3"));

@@ -48,6 +48,6 @@ void main()
         return;
     ReflectanceCase c = cases[index];
     float first_surface = diffuse_fresnel(c.n_above, layers[c.first].n);
-    vec3 response = c.model >= TWO_STREAM_PAPER ? two_stream(c, first_surface) : paper(c, first_surface);
+    vec3 response = c.model >= REFLECTANCE_TWO_STREAM_PAPER ? two_stream(c, first_surface) : paper(c, first_surface);
     imageStore(results, ivec2(gl_GlobalInvocationID.xy), vec4(response, 1.0));
 }

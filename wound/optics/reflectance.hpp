@@ -9,20 +9,25 @@
 #include <string_view>
 #include <vector>
 
+#include "shaders/shared/models.h"
 #include "wound/optics/tissue.hpp"
 
 namespace optics {
 
-enum class ReflectanceModel
+enum class ReflectanceModel : int
 {
-    Published,      // eqs. (2), (3) exactly as printed; leaves 0..1 outside their domain
-    Clamped,        // the same with each thickness limited to the domain
-    Exponential,    // the same with exponentials for the linear attenuation
-    TwoStreamPaper, // Kubelka-Munk layers with the paper's S = P sigma_s', K = sigma_a; adding
-    TwoStream,  // Kubelka-Munk layers with Eddington's S = 3/4 sigma_s' - 1/4 sigma_a, K = 2 sigma_a; adding
-    Calibrated, // Kubelka-Munk layers with S and K fitted to the photon walk; adding
-    AddingDoubling, // radiative transfer with N angles (adding_doubling.hpp)
-    MonteCarlo,     // photon walk (monte_carlo.hpp)
+    Published =
+        shared::REFLECTANCE_PUBLISHED, // eqs. (2), (3) exactly as printed; leaves 0..1 outside their domain
+    Clamped = shared::REFLECTANCE_CLAMPED,         // the same with each thickness limited to the domain
+    Exponential = shared::REFLECTANCE_EXPONENTIAL, // the same with exponentials for the linear attenuation
+    TwoStreamPaper = shared::REFLECTANCE_TWO_STREAM_PAPER, // Kubelka-Munk layers with the paper's S = P
+                                                           // sigma_s', K = sigma_a; adding
+    TwoStream = shared::REFLECTANCE_TWO_STREAM, // Kubelka-Munk layers with Eddington's S = 3/4 sigma_s' - 1/4
+                                                // sigma_a, K = 2 sigma_a; adding
+    Calibrated =
+        shared::REFLECTANCE_CALIBRATED, // Kubelka-Munk layers with S and K fitted to the photon walk; adding
+    AddingDoubling,                     // radiative transfer with N angles (adding_doubling.hpp)
+    MonteCarlo,                         // photon walk (monte_carlo.hpp)
 };
 
 enum class Incidence

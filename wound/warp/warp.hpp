@@ -12,6 +12,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "shaders/shared/models.h"
 #include "shaders/shared/warp.h"
 #include "wound/contour.hpp"
 
@@ -19,11 +20,12 @@ namespace wound {
 
 enum class WarpModel : std::uint32_t
 {
-    Radial, // closed form in star-shaped coordinates about the centroid; scales a hull of the border exactly,
-            // never folds
-    Grid,   // the composed map on a grid that is finest at the centroid, interpolated bilinearly
-    Dense,  // the paper's: one thin-plate step; folds for small r
-    Composed // thin-plate steps of at most step_scale each: the reference
+    Radial = shared::WARP_RADIAL, // closed form in star-shaped coordinates about the centroid; scales a hull
+                                  // of the border exactly, never folds
+    Grid = shared::WARP_GRID,   // the composed map on a grid that is finest at the centroid, interpolated
+                                // bilinearly
+    Dense = shared::WARP_DENSE, // the paper's: one thin-plate step; folds for small r
+    Composed = shared::WARP_COMPOSED // thin-plate steps of at most step_scale each: the reference
 };
 
 inline constexpr double step_scale = .62; // a full step scales lengths about the centroid by this
