@@ -61,7 +61,7 @@ TEST(Tiles, WithAnApronShowNoSeamOfAPassThatReadsNeighbours)
 
 TEST(Tiles, SeeTheirPartOfThePicture)
 {
-    const passes::ViewportTile tile = passes::tiles({200, 100}, 50, 10)[5]; // second row, second column
+    const passes::ViewportTile tile = passes::tiles(std::array{200u, 100u}, 50, 10)[5]; // second row, second column
     const glm::dmat4 crop = passes::tile_from_picture(tile);
     const auto ndc = [&](double x, double y) { // of a pixel of the picture
         return crop * glm::dvec4(2 * x / 200 - 1, 2 * y / 100 - 1, 0, 1);

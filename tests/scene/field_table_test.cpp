@@ -35,8 +35,9 @@ TEST(FieldTable, EveryFieldIsWrittenUnderItsNameAndReadBack)
     const json written = scene::to_json(scene);
     EXPECT_EQ(scene::scene_of(written, "/a/scene.json", "scene"), scene);
     for (const auto& field : scene::scene_fields())
-        if (field.name != "healing") // of every wound: each says its own
+        if (field.name != "healing") { // of every wound: each says its own
             EXPECT_TRUE(written.contains(field.name)) << field.name;
+        }
     for (const auto& field : scene::shading_fields())
         EXPECT_TRUE(written.at("shading").contains(field.name)) << field.name;
 }
@@ -48,9 +49,10 @@ void expect_sliders_within_range(const std::vector<scene::Field<Object>>& fields
 {
     for (const scene::Field<Object>& field : fields)
         if (field.slider)
-            for (const double value : {field.slider->low, field.slider->high})
+            for (const double value : {field.slider->low, field.slider->high}) {
                 EXPECT_NO_THROW(scene::scene_of(scene_with(field.name, value), "scene.json", "scene"))
                     << field.name << " " << value;
+            }
 }
 
 TEST(FieldTable, SlidersStayWithinTheRanges)

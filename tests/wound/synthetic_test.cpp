@@ -7,6 +7,16 @@
 
 #include "base/color.hpp"
 
+namespace wound {
+
+/// For the names of the tests: "abrasion".
+static void PrintTo(WoundShape shape, std::ostream* out)
+{
+    *out << shape_names()[std::size_t(shape)];
+}
+
+} // namespace wound
+
 namespace {
 
 using wound::Photograph;

@@ -181,22 +181,22 @@ std::string ladder_summary(const std::vector<LadderRow>& rows)
 std::string ladder_tables(const std::vector<LadderRow>& rows)
 {
     using enum wound::WarpModel;
-    std::string text = table(rows, "Error, texels:", {radial, grid, dense},
+    std::string text = table(rows, "Error, texels:", {Radial, Grid, Dense},
                              [](const LadderRow& row) { return fmt::format("{:.3f}", row.error_texels); });
-    text += table(rows, "\nArea error, %:", {radial, grid, dense, composed}, [](const LadderRow& row) {
+    text += table(rows, "\nArea error, %:", {Radial, Grid, Dense, Composed}, [](const LadderRow& row) {
         const double hundredths = std::round(1e4 * row.area_error);
         return fmt::format("{:.2f}", hundredths == 0 ? 0 : hundredths / 100);
     });
     text += table(rows, "\nLeast Jacobian, and the share of the patch that is folded:",
-                  {radial, grid, dense, composed}, [](const LadderRow& row) {
+                  {Radial, Grid, Dense, Composed}, [](const LadderRow& row) {
                       return row.folded_texels == 0 ? fmt::format("{:.3f}", row.least_jacobian)
                                                     : fmt::format("{:.3f}, {:.2g} %", row.least_jacobian,
                                                                   100 * row.folded_texels / patch_texels);
                   });
-    text += table(rows, "\nCost per texel, the grid's = 1:", {radial, dense, composed},
+    text += table(rows, "\nCost per texel, the grid's = 1:", {Radial, Dense, Composed},
                   [&](const LadderRow& row) {
                       const double times =
-                          row.ms_per_megatexel / find(rows, row.shape, grid, row.ratio).ms_per_megatexel;
+                          row.ms_per_megatexel / find(rows, row.shape, Grid, row.ratio).ms_per_megatexel;
                       return fmt::format("{:.{}f}", times, times < 10 ? 2 : 0);
                   });
     return text;
