@@ -1,7 +1,6 @@
 #include "base/image_io.hpp"
 
 #include <atomic>
-#include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <unistd.h>
@@ -21,21 +20,6 @@ void write_converted(const std::filesystem::path& path, const cv::Mat& picture,
     cv::Mat converted;
     cv::cvtColor(picture, converted, to_opencv);
     write_bytes(path, encode_png(converted));
-}
-
-// OpenCV keeps its OpenEXR codec locked (for fear of hostile files, which we do not read) until this is set.
-// Before main, for files are written by threads, and the environment is no thread's own.
-[[maybe_unused]] const int exr_unlocked = setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
-
-void write_exr_converted(const std::filesystem::path& path, const cv::Mat& picture,
-                         cv::ColorConversionCodes to_opencv, ExrDepth depth)
-{
-    cv::Mat converted;
-    cv::cvtColor(picture, converted, to_opencv);
-    const int type = depth == ExrDepth::Half ? cv::IMWRITE_EXR_TYPE_HALF : cv::IMWRITE_EXR_TYPE_FLOAT;
-    std::vector<std::uint8_t> bytes;
-    cv::imencode(".exr", converted, bytes, {cv::IMWRITE_EXR_TYPE, type});
-    write_bytes(path, bytes);
 }
 
 } // namespace
@@ -78,23 +62,6 @@ void write_png(const std::filesystem::path& path, const cv::Mat4b& rgba)
 void write_png(const std::filesystem::path& path, const cv::Mat1b& gray)
 {
     write_bytes(path, encode_png(gray));
-}
-
-void write_exr(const std::filesystem::path& path, const cv::Mat1f& values)
-{
-    std::vector<std::uint8_t> bytes;
-    cv::imencode(".exr", values, bytes, {cv::IMWRITE_EXR_TYPE, cv::IMWRITE_EXR_TYPE_FLOAT});
-    write_bytes(path, bytes);
-}
-
-void write_exr(const std::filesystem::path& path, const cv::Mat3f& rgb, ExrDepth depth)
-{
-    write_exr_converted(path, rgb, cv::COLOR_RGB2BGR, depth);
-}
-
-void write_exr(const std::filesystem::path& path, const cv::Mat4f& rgba, ExrDepth depth)
-{
-    write_exr_converted(path, rgba, cv::COLOR_RGBA2BGRA, depth);
 }
 
 } // namespace base

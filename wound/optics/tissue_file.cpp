@@ -111,12 +111,12 @@ SkinLayers parse_tissue(const json& document, std::string_view file)
     tissue.n_above = fields.number("n_above", 1, 1, 3);
     tissue.n_below = fields.number("n_below", 1, 1, 3);
     const json* layers = fields.get("layers");
+    fields.finish();
     if (layers == nullptr || !layers->is_array() || layers->empty())
         fields.fail("layers", "is not a list of layers", "give at least one layer, from the top down");
     for (std::size_t i = 0; i < layers->size(); ++i)
         tissue.layers.push_back(
             read_layer((*layers)[i], fmt::format("{}/{}", fields.where("layers"), i), per_mm));
-    fields.finish();
     broadcast(tissue, fields);
     return tissue;
 }
