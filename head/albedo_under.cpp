@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/color.hpp"
+#include "base/smoothstep.hpp"
 
 namespace head {
 namespace {
@@ -92,12 +93,6 @@ cv::Vec3f linear_albedo(const Material& material, const glm::dvec2& uv)
     return {linear(0) * factor.x, linear(1) * factor.y, linear(2) * factor.z};
 }
 
-double smoothstep(double low, double high, double x)
-{
-    const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
-
 } // namespace
 
 cv::Mat3f albedo_under(const Model& head, std::uint32_t material, const Anchor& anchor, int size)
@@ -139,7 +134,7 @@ cv::Mat1f surface_under(const Model& head, std::uint32_t material, const Anchor&
 
 double share_received(double cosine, double height)
 {
-    return smoothstep(0.15, 0.45, cosine) * (1 - smoothstep(0.8, 1.0, std::abs(height) / reach));
+    return base::smoothstep(0.15, 0.45, cosine) * (1 - base::smoothstep(0.8, 1.0, std::abs(height) / reach));
 }
 
 } // namespace head

@@ -66,6 +66,12 @@ Model load_model(const std::filesystem::path& path)
     return model;
 }
 
+std::array<glm::vec3, 3> corners_of(const Model& model, std::size_t first)
+{
+    const auto corner = [&](std::size_t k) { return model.vertices[model.indices[first + k]].position; };
+    return {corner(0), corner(1), corner(2)};
+}
+
 void update_bounds(Model& model)
 {
     model.min = model.max = model.vertices[0].position;

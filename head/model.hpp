@@ -1,6 +1,7 @@
 // A head as the renderer needs it: one vertex and index list, primitives by material, pictures on the CPU.
 // Loaded from glTF 2.0 (.glb or .gltf), checked at the door, trusted after.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -60,6 +61,9 @@ struct Model
 /// and tangents are computed where missing; zero-area triangles are dropped; NaN, out-of-range indices and
 /// absurd sizes are refused.
 Model load_model(const std::filesystem::path& path);
+
+/// The three corners of the triangle whose first index is at `first`.
+std::array<glm::vec3, 3> corners_of(const Model& model, std::size_t first);
 
 /// Sets min and max from the vertices, of which there must be one.
 void update_bounds(Model& model);

@@ -13,12 +13,6 @@ namespace {
 
 constexpr double reach = Anchor::reach;
 
-/// The first skin that a viewer in front of the face sees at (x, y).
-std::optional<SurfacePoint> seen_from_the_front(const Model& head, double x, double y)
-{
-    return first_on_ray(head, {x, y, double(head.max.z) + 1.0}, {0, 0, -1});
-}
-
 /// Mean of the vertex normals within `radius`, weighted by a smooth bump; those that face away from the
 /// nearest are left out.
 glm::dvec3 mean_normal(const Model& head, const glm::dvec3& centre, double radius)
@@ -81,8 +75,8 @@ std::optional<FacePoint> known_face_point(const Place& place)
     return std::nullopt;
 }
 
-Anchor anchor_wound(const Model& head, const FaceFrame& face, const Place& place, double patch_width_mm,
-                    double roll_deg, const std::string& where)
+Anchor anchor_wound(const Model& head, const Bvh& solid, const FaceFrame& face, const Place& place,
+                    double patch_width_mm, double roll_deg, const std::string& where)
 {
     Anchor anchor;
     anchor.half_width_m = patch_width_mm * 0.5e-3;
@@ -97,8 +91,9 @@ Anchor anchor_wound(const Model& head, const FaceFrame& face, const Place& place
             throw base::InputError(where, "\"" + std::get<std::string>(place) + "\" is no known place",
                                    "use cheek, eyebrow, chin, forehead, nose, or coordinates");
         const FacePoint at = *known;
-        const auto seen = seen_from_the_front(head, face.nose_tip.x + at.x * face.unit_m,
-                                              face.nose_tip.y + at.y * face.unit_m);
+        const glm::dvec3 eye(face.nose_tip.x + at.x * face.unit_m, face.nose_tip.y + at.y * face.unit_m,
+                             double(head.max.z) + 1.0);
+        const auto seen = first_on_ray(solid, eye, {0, 0, -1}); // what a viewer in front of the face sees
         if (!seen)
             throw base::InputError(where,
                                    fmt::format("face coordinates [{:g}, {:g}] miss the head", at.x, at.y),
@@ -115,14 +110,14 @@ Anchor anchor_wound(const Model& head, const FaceFrame& face, const Place& place
     return anchor;
 }
 
-Anchor anchor_beside(const Model& head, const FaceFrame& face, const Anchor& first,
+Anchor anchor_beside(const Model& head, const Bvh& solid, const FaceFrame& face, const Anchor& first,
                      const glm::dvec2& offset_m, double patch_width_mm, const std::string& where)
 {
     // From a little above the first one's plane: from further away another part of the head may come between.
     const double distance = glm::length(offset_m), above = std::max(distance, first.half_width_m);
     const glm::dvec3 origin =
         first.centre + offset_m.x * first.right + offset_m.y * first.down + above * first.normal;
-    const auto found = first_on_ray(head, origin, -first.normal);
+    const auto found = first_on_ray(solid, origin, -first.normal);
     if (!found || glm::distance(found->at, origin) > 2.5 * above)
         throw base::InputError(
             where,

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "head/bvh.hpp"
 #include "head/model.hpp"
 
 namespace head {
@@ -56,14 +57,15 @@ struct Anchor
 
 /// Puts a patch of `patch_width_mm` at `place`, turned by `roll_deg` counter-clockwise as the viewer sees it.
 /// The normal is the mean over the footprint, so that the patch lies on the skin rather than on one triangle
-/// of it. Throws base::InputError (naming `where`) when the place is not on the head.
-Anchor anchor_wound(const Model& head, const FaceFrame& face, const Place& place, double patch_width_mm,
-                    double roll_deg, const std::string& where);
+/// of it. `solid`: the hierarchy of the head's solid triangles. Throws base::InputError (naming `where`) when
+/// the place is not on the head.
+Anchor anchor_wound(const Model& head, const Bvh& solid, const FaceFrame& face, const Place& place,
+                    double patch_width_mm, double roll_deg, const std::string& where);
 
 /// Puts a patch where it lies beside `first` in one photograph: `offset_m` (right, down) from the first's
 /// centre, projected along its normal onto the head, and turned as the first. Throws base::InputError
 /// (naming `where`) when there is no skin.
-Anchor anchor_beside(const Model& head, const FaceFrame& face, const Anchor& first,
+Anchor anchor_beside(const Model& head, const Bvh& solid, const FaceFrame& face, const Anchor& first,
                      const glm::dvec2& offset_m, double patch_width_mm, const std::string& where);
 
 /// A point of the head in the anchor's frame: x along `right`, y along `down`, z above the patch's plane, in

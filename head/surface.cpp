@@ -1,28 +1,10 @@
 #include "head/surface.hpp"
 
-#include <algorithm>
+#include <array>
 #include <limits>
 
 namespace head {
 namespace {
-
-/// Moeller & Trumbore 1997; distance along the direction, in its length, front faces only.
-std::optional<double> hit(const std::array<glm::vec3, 3>& t, const glm::dvec3& origin,
-                          const glm::dvec3& direction)
-{
-    const glm::dvec3 a(t[0]), ab = glm::dvec3(t[1]) - a, ac = glm::dvec3(t[2]) - a;
-    const glm::dvec3 p = glm::cross(direction, ac);
-    const double det = glm::dot(ab, p);
-    if (det <= 1e-18)
-        return std::nullopt;
-    const glm::dvec3 s = origin - a;
-    const double u = glm::dot(s, p) / det;
-    const glm::dvec3 q = glm::cross(s, ab);
-    const double v = glm::dot(direction, q) / det;
-    if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9)
-        return std::nullopt;
-    return glm::dot(ac, q) / det;
-}
 
 /// Ericson 2004, Real-Time Collision Detection, 5.1.5: by the region of the triangle that the point is in.
 glm::dvec3 nearest_in_triangle(const std::array<glm::vec3, 3>& t, const glm::dvec3& p)
@@ -65,25 +47,14 @@ void for_each_triangle(const Model& head, const Visit& visit)
 
 } // namespace
 
-std::array<glm::vec3, 3> corners_of(const Model& head, std::size_t first)
-{
-    return {head.vertices[head.indices[first]].position, head.vertices[head.indices[first + 1]].position,
-            head.vertices[head.indices[first + 2]].position};
-}
-
-std::optional<SurfacePoint> first_on_ray(const Model& head, const glm::dvec3& origin,
+std::optional<SurfacePoint> first_on_ray(const Bvh& solid, const glm::dvec3& origin,
                                          const glm::dvec3& direction)
 {
-    std::optional<SurfacePoint> found;
-    double nearest = std::numeric_limits<double>::max();
-    for_each_triangle(head, [&](const std::array<glm::vec3, 3>& corners, std::uint32_t material) {
-        const auto distance = hit(corners, origin, direction);
-        if (!distance || *distance < 0 || *distance >= nearest)
-            return;
-        nearest = *distance;
-        found = {origin + nearest * direction, material};
-    });
-    return found;
+    const auto hit =
+        solid.nearest(origin, direction, 0, std::numeric_limits<double>::infinity(), Facing::Front);
+    if (!hit)
+        return std::nullopt;
+    return SurfacePoint{origin + hit->distance * direction, hit->material};
 }
 
 SurfacePoint nearest_on_surface(const Model& head, const glm::dvec3& point)

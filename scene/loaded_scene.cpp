@@ -168,7 +168,7 @@ std::optional<glm::dvec3> LoadedScene::pick(const head::Camera& camera, double x
                                             double aspect) const
 {
     const std::optional<head::SurfacePoint> seen =
-        head::first_on_ray(*head->model, camera.eye, head::sight_through(camera, x, y, aspect));
+        head::first_on_ray(*head->bvh, camera.eye, head::sight_through(camera, x, y, aspect));
     if (!seen || seen->material != head->skin)
         return std::nullopt;
     return seen->at;

@@ -173,13 +173,13 @@ std::vector<head::Anchor> anchors_of(const Wound& wound, const FittedPhotograph&
                                      const LoadedHead& head, const std::string& name)
 {
     const double scale = wound.width_mm / photograph.wound.width_mm; // it may be for another width
-    std::vector<head::Anchor> anchors{head::anchor_wound(*head.model, head.face, wound.place,
+    std::vector<head::Anchor> anchors{head::anchor_wound(*head.model, *head.bvh, head.face, wound.place,
                                                          wound.width_mm / wound::wound_share, wound.roll_deg,
                                                          name + ": at")};
     for (std::size_t i = 1; i < photograph.layout.size(); ++i) {
         const FittedPhotograph::Part& part = photograph.layout[i];
         anchors.push_back(head::anchor_beside(
-            *head.model, head.face, anchors.front(),
+            *head.model, *head.bvh, head.face, anchors.front(),
             1e-3 * scale * glm::dvec2(part.offset_mm.x, part.offset_mm.y),
             scale * part.width_mm / wound::wound_share,
             fmt::format("{}: component {} of the mask, or of what was found without one", name, i + 1)));
@@ -203,6 +203,7 @@ std::shared_ptr<const LoadedHead> load_head(const std::filesystem::path& chosen)
         head->notes.push_back(fmt::format("{}: {}", file.string(), note));
     head->face = head::find_face(*model);
     head->skin = head::skin_material(*model);
+    head->bvh = std::make_shared<const head::Bvh>(*model);
     head->model = std::move(model);
     return head;
 }

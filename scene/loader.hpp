@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "head/bvh.hpp"
 #include "head/model.hpp"
 #include "head/placement.hpp"
 #include "scene/scene.hpp"
@@ -21,6 +22,7 @@ namespace scene {
 struct LoadedHead
 {
     std::shared_ptr<const head::Model> model;
+    std::shared_ptr<const head::Bvh> bvh; // of its solid triangles
     head::FaceFrame face;
     std::uint32_t skin = 0; // material
     std::vector<std::string> notes;

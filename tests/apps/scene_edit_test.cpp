@@ -2,11 +2,11 @@
 #include <cmath>
 #include <gmock/gmock.h>
 
-#include "scene/file.hpp"
 #include "apps/demo/camera_moves.hpp"
 #include "apps/demo/history.hpp"
 #include "head/surface.hpp"
 #include "scene/command_line.hpp"
+#include "scene/file.hpp"
 #include "stage/stage.hpp"
 #include "tests/support/gpu.hpp"
 #include "tests/support/small_head.hpp"
@@ -67,12 +67,13 @@ TEST_F(EditTest, PickingWhereAWoundIsSeenFindsItsCentre)
 TEST_F(EditTest, DraggingMovesAWoundWithoutJumps)
 {
     const head::Model head = small::head();
+    const head::Bvh bvh(head);
     const head::FaceFrame face = head::find_face(head);
     glm::dvec3 last(0);
     for (int i = 0; i <= 200; ++i) { // 5 cm over cheek and nose, in quarter millimetres
-        const auto seen = head::first_on_ray(head, {-.025 + i * 2.5e-4, .01, 1}, {0, 0, -1});
+        const auto seen = head::first_on_ray(bvh, {-.025 + i * 2.5e-4, .01, 1}, {0, 0, -1});
         ASSERT_TRUE(seen);
-        const head::Anchor anchor = head::anchor_wound(head, face, seen->at, 60, 0, "wound");
+        const head::Anchor anchor = head::anchor_wound(head, bvh, face, seen->at, 60, 0, "wound");
         EXPECT_LT(glm::distance(anchor.centre, seen->at), 1e-9) << "under the pointer";
         EXPECT_LT(i == 0 ? 0 : glm::length(anchor.normal - last), .05) << i;
         last = anchor.normal;
@@ -88,7 +89,7 @@ TEST(Surface, NearestPointIsOnATriangleAsNearAsAnyOfItsPoints)
     EXPECT_LT(glm::distance(near(.013, -.037, .02), glm::dvec3(.013, -.037, 0)), 1e-9);
     EXPECT_LT(glm::distance(near(.5, .5, .1), glm::dvec3(.12, .12, 0)), 1e-7) << "a corner";
     EXPECT_LT(glm::distance(near(.013, -.5, -.1), glm::dvec3(.013, -.12, 0)), 1e-7) << "an edge";
-    EXPECT_FALSE(head::first_on_ray(wall, {0, 0, -1}, {0, 0, 1})) << "seen from behind";
+    EXPECT_FALSE(head::first_on_ray(head::Bvh(wall), {0, 0, -1}, {0, 0, 1})) << "seen from behind";
 }
 
 TEST(CameraMoves, KeepWhatASceneFileMayHold)
@@ -161,8 +162,9 @@ TEST_F(EditTest, TwoSettingsStandSideBySide)
     };
     const auto both = [&](double divider) {
         graph::Graph graph;
-        graph.readback("picture", stage::declare_split(graph, left, {.day = 3, .tile = scene.size, .every_frame = false}, right,
-                                              {.day = 9, .tile = scene.size, .every_frame = false}, divider));
+        graph.readback("picture", stage::declare_split(
+                                      graph, left, {.day = 3, .tile = scene.size, .every_frame = false},
+                                      right, {.day = 9, .tile = scene.size, .every_frame = false}, divider));
         return executor.run(graph);
     };
     const cv::Mat first = single(left, 3), second = single(right, 9);

@@ -182,11 +182,11 @@ TEST(Occlusion, OfAFloorUnderADiscHasTheClosedForm)
         for (int v : {0, 1 + i, 1 + (i + 1) % sides})
             indices.push_back(static_cast<std::uint32_t>(v));
     }
-    const head::TriangleTree tree(positions, indices);
+    const head::Bvh bvh(positions, indices);
     const std::vector<glm::vec3> floor = {{0, 0, 0}}, up = {{0, 1, 0}}, down = {{0, -1, 0}};
-    EXPECT_NEAR(head::ambient_occlusion(tree, floor, up, 4096, 1.0f)[0], 1 - r * r / (r * r + h * h), 0.01);
-    EXPECT_EQ(head::ambient_occlusion(tree, floor, down, 256, 1.0f)[0], 1.0f);
-    EXPECT_EQ(head::ambient_occlusion(tree, floor, up, 256, 0.9f * h)[0], 1.0f); // out of reach
+    EXPECT_NEAR(head::ambient_occlusion(bvh, floor, up, 4096, 1.0f)[0], 1 - r * r / (r * r + h * h), 0.01);
+    EXPECT_EQ(head::ambient_occlusion(bvh, floor, down, 256, 1.0f)[0], 1.0f);
+    EXPECT_EQ(head::ambient_occlusion(bvh, floor, up, 256, 0.9f * h)[0], 1.0f); // out of reach
 }
 
 TEST(Occlusion, InsideAClosedBoxIsComplete)
@@ -197,10 +197,10 @@ TEST(Occlusion, InsideAClosedBoxIsComplete)
     for (const head_tool::CutMesh::Triangle& t : box.head)
         for (const head_tool::CutMesh::Corner& corner : t)
             indices.push_back(corner.vertex);
-    const head::TriangleTree tree(positions, indices);
+    const head::Bvh bvh(positions, indices);
     const std::vector<glm::vec3> points = {{0, 0, 0}, {0.9f, 0.3f, -0.8f}, {0, 2, 0}},
                                  normals(3, glm::vec3(0, 1, 0));
-    EXPECT_THAT(head::ambient_occlusion(tree, points, normals, 256, 10.0f),
+    EXPECT_THAT(head::ambient_occlusion(bvh, points, normals, 256, 10.0f),
                 testing::ElementsAre(0.0f, 0.0f, 1.0f));
 }
 

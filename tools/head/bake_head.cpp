@@ -152,8 +152,7 @@ std::vector<glm::vec3> occlusion_of(const head::RawMesh& mesh)
             const auto indices = indices_of(mesh, primitive);
             solid.insert(solid.end(), indices.begin(), indices.end());
         }
-    const auto open =
-        head::ambient_occlusion(head::TriangleTree(positions, solid), positions, normals, rays, reach);
+    const auto open = head::ambient_occlusion(head::Bvh(positions, solid), positions, normals, rays, reach);
     return {open.begin(), open.end()};
 }
 

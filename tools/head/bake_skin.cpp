@@ -6,6 +6,8 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "base/smoothstep.hpp"
+
 namespace head_tool {
 namespace {
 
@@ -65,12 +67,6 @@ float bump(glm::vec3 p, glm::vec3 middle, float radius)
     return std::exp(-glm::dot(p - middle, p - middle) / (radius * radius));
 }
 
-float smooth_step(float low, float high, float x)
-{
-    const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
-    return t * t * (3 - 2 * t);
-}
-
 glm::vec3 cheek_of(const SkinPlaces& places)
 {
     return places.nose_tip + glm::vec3(34, 2, -22);
@@ -88,10 +84,10 @@ Relief relief_at(glm::vec3 p, const SkinPlaces& places, float lip)
     const float nose = bump(p, places.nose_tip, 22);
     const float cheeks = bump({std::abs(p.x), p.y, p.z}, cheek_of(places), 26);
     const float chin = bump(p, places.mouth + glm::vec3(0, -28, -4), 22);
-    const float face =
-        smooth_step(-95, -45, p.z) * smooth_step(-120, -85, p.y) * (1 - smooth_step(55, 95, p.y));
+    const float face = base::smoothstep(-95, -45, p.z) * base::smoothstep(-120, -85, p.y) *
+                       (1 - base::smoothstep(55, 95, p.y));
     const float forehead =
-        smooth_step(22, 36, p.y) * (1 - smooth_step(55, 75, p.y)) * smooth_step(-70, -30, p.z);
+        base::smoothstep(22, 36, p.y) * (1 - base::smoothstep(55, 75, p.y)) * base::smoothstep(-70, -30, p.z);
     const float dry = 1 - lip;
     return {dry * (0.15f + 0.35f * face + 0.8f * nose + 0.6f * cheeks + 0.4f * chin),
             dry * (0.6f + 0.3f * face), dry * forehead};
@@ -110,9 +106,9 @@ Detail detail_at(glm::vec3 p, const Relief& relief)
     // Scattered points would lie on straight cell borders in smooth skin; a gentle warp hides the lattice.
     const glm::vec3 warp =
         0.35f * glm::vec3(noise(p * 0.5f), noise(p * 0.5f + 31.0f), noise(p * 0.5f + 67.0f));
-    const float pit = 1 - smooth_step(0.12f, 0.5f, cellular((p + warp) / pore_spacing).x);
+    const float pit = 1 - base::smoothstep(0.12f, 0.5f, cellular((p + warp) / pore_spacing).x);
     const glm::vec2 plates = cellular((p + warp) / furrow_spacing + 11.0f);
-    const float furrow = 1 - smooth_step(0.0f, 0.22f, plates.y - plates.x);
+    const float furrow = 1 - base::smoothstep(0.0f, 0.22f, plates.y - plates.x);
     // Creases of the forehead run across: noise stretched sideways.
     const float crease = noise({p.x * 0.02f, p.y * 0.22f + 0.8f * noise(p * 0.03f), p.z * 0.02f});
     const float roll = noise(p * 0.35f) + 0.6f * noise(p * 0.8f + 5.0f);
@@ -127,7 +123,7 @@ Detail detail_at(glm::vec3 p, const Relief& relief)
 float lip_at(const cv::Vec3b& paint, glm::vec3 p, const SkinPlaces& places)
 {
     const float red = static_cast<float>(paint[0]) / std::max(1.0f, static_cast<float>(paint[1]));
-    return smooth_step(1.28f, 1.5f, red) * bump(p, places.mouth, 30);
+    return base::smoothstep(1.28f, 1.5f, red) * bump(p, places.mouth, 30);
 }
 
 glm::vec3 place(const cv::Mat3f& positions, int y, int x)
