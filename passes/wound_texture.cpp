@@ -1,22 +1,15 @@
 #include "passes/wound_texture.hpp"
 
-#include <opencv2/imgproc.hpp>
-
 #include "shaders/shared/wound.h"
+#include "wound/day_maps.hpp"
 
 namespace passes {
 
 WoundMaps upload_wound(const gpu::Device& device, const wound::Patch& patch)
 {
-    cv::Mat4f color(patch.color.size());
-    const cv::Mat sources[] = {patch.color, patch.opacity};
-    const int channels[] = {0, 0, 1, 1, 2, 2, 3, 3};
-    cv::mixChannels(sources, 2, &color, 1, channels, 4);
-    cv::Mat2f shape;
-    cv::merge(std::vector<cv::Mat>{patch.depth_mm, patch.mask}, shape);
     cv::Mat half_color, half_shape; // every device filters half floats
-    color.convertTo(half_color, CV_16F);
-    shape.convertTo(half_shape, CV_16F);
+    wound::day0_color(patch).convertTo(half_color, CV_16F);
+    wound::day0_shape(patch).convertTo(half_shape, CV_16F);
 
     WoundMaps maps;
     maps.color =
@@ -65,14 +58,10 @@ WoundTexture add_wound_texture(graph::Graph& graph, const std::string& suffix, c
     warp.buffer<shared::vec2>("WarpValues_", values);
     warp.dispatch(width, height);
 
-    const double texel_mm = maps.width_mm / maps.size;
     graph::ComputePass& relief = graph.compute("wound_relief" + suffix, "wound_relief.comp");
     relief.sample("state", texture.state);
     relief.store("relief", texture.relief);
-    relief.uniform("Relief_",
-                   shared::Relief{float(today.depth_scale),
-                                  today.in_phases ? float(today.scar.height_mm) : 0.0f, float(texel_mm),
-                                  float(4.0 / texel_mm)}); // occlusion looks 4 mm far
+    relief.uniform("Relief_", wound::relief_parameters(today, maps.width_mm / maps.size));
     relief.dispatch(width, height);
     return texture;
 }

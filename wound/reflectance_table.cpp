@@ -4,13 +4,13 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
-#include <opencv2/imgproc.hpp>
 #include <thread>
 #include <unistd.h>
 
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "base/progress.hpp"
+#include "base/sampling.hpp"
 #include "wound/optics/chromophores.hpp"
 
 namespace wound {
@@ -182,15 +182,7 @@ base::Color sample_table(const cv::Mat3f& table, const shared::LutAxes& axes, sh
 {
     const shared::vec2 size(static_cast<float>(table.cols), static_cast<float>(table.rows));
     const shared::vec2 uv = lut_uv(axes, part, static_cast<float>(injury_mm), static_cast<float>(day), size);
-    const double x = uv.x * size.x - .5, y = uv.y * size.y - .5;
-    const int x0 = std::clamp(static_cast<int>(std::floor(x)), 0, table.cols - 1),
-              x1 = std::min(x0 + 1, table.cols - 1);
-    const int y0 = std::clamp(static_cast<int>(std::floor(y)), 0, table.rows - 1),
-              y1 = std::min(y0 + 1, table.rows - 1);
-    const double fx = x - x0, fy = y - y0;
-    const base::Color upper = (1 - fx) * base::Color(table(y0, x0)) + fx * base::Color(table(y0, x1));
-    const base::Color lower = (1 - fx) * base::Color(table(y1, x0)) + fx * base::Color(table(y1, x1));
-    return (1 - fy) * upper + fy * lower;
+    return base::sample<3>(table, {uv.x, uv.y});
 }
 
 } // namespace wound

@@ -1,5 +1,6 @@
 #include "engine/gpu/texture.hpp"
 
+#include "base/sampling.hpp"
 #include "engine/gpu/device.hpp"
 #include "engine/gpu/vulkan_check.hpp"
 #include "engine/graph/formats.hpp"
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 namespace gpu {
@@ -176,13 +176,9 @@ std::vector<cv::Mat> mip_chain(const cv::Mat& picture, Encoding encoding)
         levels.push_back(from_linear_float(linear, picture.type(), encoding));
     } else
         linear = to_linear_float(picture, encoding);
-    while (linear.cols > 1 || linear.rows > 1) {
-        cv::Mat half;
-        cv::resize(linear, half, {std::max(1, linear.cols / 2), std::max(1, linear.rows / 2)}, 0, 0,
-                   cv::INTER_AREA);
-        linear = half;
-        levels.push_back(from_linear_float(linear, picture.type(), encoding));
-    }
+    const std::vector<cv::Mat> halved = base::mip_levels(linear);
+    for (std::size_t i = 1; i < halved.size(); ++i)
+        levels.push_back(from_linear_float(halved[i], picture.type(), encoding));
     return levels;
 }
 

@@ -1,5 +1,5 @@
-// The wound's compute passes: the warped mask's area, the shader's warp against the double-precision one,
-// hostile days.
+// The wound's compute passes: the warped mask's area, the shader's warp against the double-precision one, the
+// maps of a day against the CPU's, hostile days.
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 #include "base/image_compare.hpp"
 #include "passes/wound_texture.hpp"
 #include "tests/support/gpu.hpp"
+#include "wound/day_maps.hpp"
 #include "wound/drawn_region.hpp"
 #include "wound/prepare.hpp"
 #include "wound/synthetic/synthetic.hpp"
@@ -58,13 +59,8 @@ wound::WoundDay day_with(const wound::PreparedWound& wound, double bed_ratio, do
     return day;
 }
 
-/// The three maps of a day as floats.
-struct Maps
-{
-    cv::Mat4f color, state, relief;
-};
-
-Maps draw(gpu::Executor& executor, const passes::WoundMaps& maps, const wound::WoundDay& today)
+/// What the passes draw, as floats.
+wound::DayMaps draw(gpu::Executor& executor, const passes::WoundMaps& maps, const wound::WoundDay& today)
 {
     graph::Graph graph;
     const passes::WoundTexture texture = passes::add_wound_texture(graph, "", maps, today);
@@ -72,7 +68,7 @@ Maps draw(gpu::Executor& executor, const passes::WoundMaps& maps, const wound::W
                                      graph.readback("state", texture.state),
                                      graph.readback("relief", texture.relief)};
     const gpu::FrameResult frame = executor.run(graph);
-    Maps result;
+    wound::DayMaps result{.region = maps.region, .patch_size = maps.size};
     cv::Mat4f* const targets[] = {&result.color, &result.state, &result.relief};
     for (int i = 0; i < 3; ++i)
         frame.mat(ids[i]).convertTo(*targets[i], CV_32F);
@@ -125,6 +121,22 @@ double largest_error(const wound::Warp& warp, gpu::Executor& executor)
             largest = std::isfinite(error) ? std::max(largest, error) : INFINITY;
         }
     return largest * 256;
+}
+
+/// `largest`: bounds of the channels' differences.
+void expect_near(const cv::Mat4f& map, const cv::Mat4f& reference, const cv::Vec4d& largest,
+                 const std::string& where)
+{
+    constexpr double mean = 5e-4; // roundings are as often up as down: what is off everywhere is off by rule
+    ASSERT_EQ(map.size(), reference.size());
+    const cv::Mat4f off = cv::abs(map - reference);
+    const cv::Scalar means = cv::mean(off);
+    for (int c = 0; c < 4; ++c) {
+        cv::Mat1f channel;
+        cv::extractChannel(off, channel, c);
+        EXPECT_LT(cv::norm(channel, cv::NORM_INF), largest[c]) << where << ", channel " << c;
+        EXPECT_LT(means[c], mean) << where << ", channel " << c;
+    }
 }
 
 } // namespace
@@ -183,7 +195,7 @@ TEST_F(WoundTextureOnGpu, NoDayGivesAnythingButColorsAndShares)
                     wound::wound_at(wound, healing, day));
             }
     for (const auto& [name, today] : days) {
-        const Maps drawn = draw(executor, maps, today);
+        const wound::DayMaps drawn = draw(executor, maps, today);
         for (const cv::Mat4f& map : {drawn.color, drawn.state, drawn.relief})
             ASSERT_FALSE(base::first_non_finite(map)) << name;
         std::vector<cv::Mat1f> color, state;
@@ -216,9 +228,9 @@ TEST_F(WoundTextureOnGpu, OnlyTheWoundsOwnRegionIsDrawn)
             EXPECT_LT(region.area(), .9 * whole.area());
             for (const double day : {0., .5, 1., 3., 8., 20., 27., 60., 400.}) {
                 const wound::WoundDay today = wound::wound_at(wound, healing, day);
-                const Maps all = draw(executor, maps, today);
+                const wound::DayMaps all = draw(executor, maps, today);
                 maps.region = region;
-                const Maps part = draw(executor, maps, today);
+                const wound::DayMaps part = draw(executor, maps, today);
                 maps.region = whole;
                 cv::Mat1f opacity;
                 cv::extractChannel(all.color, opacity, 3);
@@ -239,7 +251,7 @@ TEST_F(WoundTextureOnGpu, DayZeroIsThePatchItself)
     for (const wound::HealingModel model : {wound::HealingModel::Contraction, wound::HealingModel::Face}) {
         wound::Healing healing;
         healing.model = model;
-        const Maps drawn = draw(executor, maps, wound::wound_at(wound, healing, 0));
+        const wound::DayMaps drawn = draw(executor, maps, wound::wound_at(wound, healing, 0));
         cv::Mat3f color;
         cv::Mat1f bed;
         cv::cvtColor(drawn.color, color, cv::COLOR_RGBA2RGB);
@@ -247,5 +259,35 @@ TEST_F(WoundTextureOnGpu, DayZeroIsThePatchItself)
         EXPECT_LT(cv::norm(color, wound.patch.color, cv::NORM_INF),
                   .002); // two half floats and a warp by nothing
         EXPECT_LT(cv::norm(bed, wound.patch.mask, cv::NORM_INF), .002);
+    }
+}
+
+// Day 0 and today are kept in half floats, each within half a step, 2^-11 of the value; a device may filter
+// with weights in steps of 1/256, which is as much again in a texture whose texels differ by up to a half.
+// Slope and occlusion are differences of such depths, over a texel and more.
+TEST_F(WoundTextureOnGpu, MapsOfADayEqualTheCpus)
+{
+    constexpr double share = 2e-3; // of the largest value
+    gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
+    for (const std::string& shape : wound::shape_names()) {
+        const wound::PreparedWound wound =
+            prepared(wound::synthesize({.shape = wound::shape_named(shape), .seed = 3}), 256);
+        passes::WoundMaps maps = passes::upload_wound(gpu_test::device(), wound.patch);
+        const double depth = share * cv::norm(wound.patch.depth_mm, cv::NORM_INF),
+                     slope = .5 * depth / (maps.width_mm / maps.size);
+        for (const auto model : {wound::HealingModel::Face, wound::HealingModel::Contraction}) {
+            wound::Healing healing;
+            healing.model = model;
+            maps.region = wound::drawn_region(wound, healing);
+            for (const double day : {0., 3., 8., 12., 20., 60.}) {
+                const wound::WoundDay today = wound::wound_at(wound, healing, day);
+                const wound::DayMaps cpu = wound::maps_on(wound, today, maps.region);
+                const wound::DayMaps drawn = draw(executor, maps, today);
+                const std::string where = fmt::format("{}, model {}, day {}: ", shape, int(model), day);
+                expect_near(drawn.color, cpu.color, cv::Vec4d::all(share), where + "color");
+                expect_near(drawn.state, cpu.state, {depth, depth, share, share}, where + "state");
+                expect_near(drawn.relief, cpu.relief, {slope, slope, slope, depth}, where + "relief");
+            }
+        }
     }
 }

@@ -1,0 +1,45 @@
+// Float images read as a graphics device reads textures: bilinear with clamped edges, linear between mip
+// levels. Texture coordinates are 0..1 over the image; beyond them its edge goes on.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace base {
+
+/// The image and what is left of it at half the size each (rounded down, at least 1), down to 1 x 1, box
+/// filtered. Floats with any number of channels.
+std::vector<cv::Mat> mip_levels(const cv::Mat& image);
+
+/// `image` holds `channels` floats a texel.
+template <int channels>
+cv::Vec<double, channels> sample(const cv::Mat& image, cv::Point2d uv)
+{
+    using Texel = cv::Vec<float, channels>;
+    using Value = cv::Vec<double, channels>;
+    CV_DbgAssert(image.type() == cv::traits::Type<Texel>::value);
+    const double x = std::clamp(uv.x * image.cols - .5, 0., image.cols - 1.),
+                 y = std::clamp(uv.y * image.rows - .5, 0., image.rows - 1.);
+    const int x0 = static_cast<int>(x), x1 = std::min(x0 + 1, image.cols - 1);
+    const int y0 = static_cast<int>(y), y1 = std::min(y0 + 1, image.rows - 1);
+    const double fx = x - x0, fy = y - y0;
+    const Texel *above = image.ptr<Texel>(y0), *below = image.ptr<Texel>(y1);
+    return (1 - fy) * ((1 - fx) * Value(above[x0]) + fx * Value(above[x1])) +
+           fy * ((1 - fx) * Value(below[x0]) + fx * Value(below[x1]));
+}
+
+/// Between the levels of mip_levels(); `lod` 0 is the image itself, and beyond the last level that goes on.
+template <int channels>
+cv::Vec<double, channels> sample(const std::vector<cv::Mat>& levels, cv::Point2d uv, double lod)
+{
+    const double level = std::clamp(lod, 0., static_cast<double>(levels.size() - 1));
+    const auto finer = static_cast<std::size_t>(level);
+    const double toward_coarser = level - static_cast<double>(finer);
+    const cv::Vec<double, channels> value = sample<channels>(levels[finer], uv);
+    if (toward_coarser == 0)
+        return value;
+    return (1 - toward_coarser) * value + toward_coarser * sample<channels>(levels[finer + 1], uv);
+}
+
+} // namespace base

@@ -1,0 +1,56 @@
+// What a wound makes of a point of skin: the colour C of eq. (4) of Choi & Chin 2014 and all else that
+// shading needs. The double-precision twin of add_wound() in shaders/lib/wound_projection.glsl and of what
+// shaders/forward.frag does with it; a test compares the two.
+//
+//   const glm::dvec3 p = head::in_frame(anchor, position);
+//   const double facing = head::share_received(dot(normal, anchor.normal), p.z);
+//   const SkinPoint seen = with_wound({own_albedo, mapped_normal}, wound, {{p.x, p.y}, facing, ...}, model);
+#pragma once
+#include <opencv2/core.hpp>
+
+#include "base/color.hpp"
+#include "shaders/shared/reflectance_lut.h"
+#include "wound/day_maps.hpp"
+#include "wound/optics/shading.hpp"
+#include "wound/wound.hpp"
+
+namespace wound {
+
+/// A point of skin as shading sees it.
+struct SkinPoint
+{
+    base::Color albedo;   // C of eq. (4)
+    cv::Vec3d normal;     // unit
+    double occlusion = 1; // 1 open
+    double wetness = 0;   // 0 dry skin .. 1 open bed
+    double tautness = 0;  // 0 porous skin .. 1 new epithelium
+};
+
+/// A wound on a day, with all that a point under it is made of. Kept by the caller.
+struct WoundLook
+{
+    const WoundDay& today;
+    const DayMaps& maps;
+    const cv::Mat3f& reflectance; // bake_reflectance_table()
+    shared::LutAxes axes;         // of the table
+};
+
+/// Where a point of skin lies under a wound's patch. Vectors are in the space of the point's normal.
+struct PatchPlace
+{
+    cv::Point2d at;                 // patch coordinates
+    double facing = 1;              // how much of the wound the skin receives there, 0..1
+    cv::Vec3d right, down;          // the patch's axes, unit
+    cv::Vec3d geometric;            // the interpolated normal, unit, without the normal map
+    cv::Point2d footprint = {0, 0}; // of sample()
+};
+
+/// `skin`: the face's own, or with the wounds added so far.
+SkinPoint with_wound(SkinPoint skin, const WoundLook& wound, const PatchPlace& place,
+                     optics::BlendModel model);
+
+/// The highlight as wetness and tautness change it: a wet bed mirrors in a narrower lobe, taut new epithelium
+/// a little so.
+optics::Shading with_gloss(optics::Shading shading, const SkinPoint& skin);
+
+} // namespace wound
