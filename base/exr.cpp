@@ -5,7 +5,9 @@
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
+#include <algorithm>
 #include <cstring>
+#include <vector>
 
 #include "base/file.hpp"
 #include "base/image_io.hpp"
