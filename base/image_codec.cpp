@@ -176,7 +176,7 @@ cv::Mat decode_picture(Bytes bytes, Channels channels, std::string_view where)
         const QuietCodecs quiet;
         const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8U,
                              const_cast<std::uint8_t*>(bytes.data()));
-        picture = cv::imdecode(buffer, channels == Channels::Color ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED);
+        picture = cv::imdecode(buffer, channels == Channels::Opaque ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED);
     } catch (const cv::Exception&) {
         picture.release(); // reported below, with what OpenCV merely returns as empty
     }

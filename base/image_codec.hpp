@@ -11,7 +11,7 @@ namespace base {
 /// What a decoded picture is wanted as.
 enum class Channels : std::uint8_t
 {
-    Color,    // three channels, upright (EXIF orientation applied), alpha dropped
+    Opaque,   // three channels, upright (EXIF orientation applied), alpha dropped
     AsStored, // one, three or four channels, not turned
 };
 

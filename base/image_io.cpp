@@ -26,7 +26,7 @@ void write_converted(const std::filesystem::path& path, const cv::Mat& picture,
 
 cv::Mat3b read_rgb(const std::filesystem::path& path)
 {
-    const cv::Mat bgr = decode_picture(read_file(path, max_file), Channels::Color, path.string());
+    const cv::Mat bgr = decode_picture(read_file(path, max_file), Channels::Opaque, path.string());
     cv::Mat3b rgb;
     cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
     return rgb;
@@ -38,7 +38,7 @@ cv::Mat1b read_mask(const std::filesystem::path& path)
     const cv::Mat stored = decode_picture(bytes, Channels::AsStored, path.string());
     if (stored.channels() != 4) {
         cv::Mat gray;
-        cv::cvtColor(decode_picture(bytes, Channels::Color, path.string()), gray, cv::COLOR_BGR2GRAY);
+        cv::cvtColor(decode_picture(bytes, Channels::Opaque, path.string()), gray, cv::COLOR_BGR2GRAY);
         return gray > 127;
     }
     cv::Mat gray, alpha;

@@ -192,7 +192,7 @@ cv::Mat3b read_skin(const std::filesystem::path& file)
     const std::size_t png = text.rfind("\x89PNG\r\n\x1a\n");
     const auto picture = std::span(bytes).subspan(png == std::string_view::npos ? 0 : png);
     cv::Mat3b rgb;
-    cv::cvtColor(base::decode_picture(picture, base::Channels::Color, file.string()), rgb, cv::COLOR_BGR2RGB);
+    cv::cvtColor(base::decode_picture(picture, base::Channels::Opaque, file.string()), rgb, cv::COLOR_BGR2RGB);
     return rgb;
 }
 
