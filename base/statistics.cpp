@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <random>
+#include <utility>
 
 namespace base {
 namespace {
@@ -144,6 +146,18 @@ std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const
         residual += std::pow(v[i] - mean_v - law.exponent * (u[i] - mean_u), 2);
     law.standard_error = std::sqrt(residual / (n - 2) / uu);
     return law;
+}
+
+std::vector<std::size_t> non_dominated(std::span<const double> x, std::span<const double> y)
+{
+    assert(x.size() == y.size());
+    std::vector<std::size_t> order(x.size()), kept;
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return std::pair(x[i], y[i]); });
+    for (const std::size_t i : order)
+        if (kept.empty() || y[i] < y[kept.back()])
+            kept.push_back(i);
+    return kept;
 }
 
 } // namespace base

@@ -45,4 +45,8 @@ struct PowerLaw
 /// Points with x or y <= 0 are left out; none when fewer than three different x remain.
 std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const double> y);
 
+/// Indices of the points that no other one beats: none is at most as large in both coordinates and smaller in
+/// one. In order of x; of equal points the first.
+std::vector<std::size_t> non_dominated(std::span<const double> x, std::span<const double> y);
+
 } // namespace base

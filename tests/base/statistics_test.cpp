@@ -89,3 +89,10 @@ TEST(Statistics, PowerLawsAreRecovered)
         << "zero wounds have no logarithm";
     EXPECT_FALSE(base::fit_power_law(std::vector{1., 1., 2.}, std::vector{1., 1., 2.}));
 }
+
+TEST(Statistics, NonDominatedPointsAreThoseThatNoOtherBeats)
+{
+    const std::vector<double> cost{5, 1, 3, 2, 3, 9, 1}, error{1, 8, 2, 9, 2, 1, 8};
+    EXPECT_EQ(base::non_dominated(cost, error), (std::vector<std::size_t>{1, 2, 0})); // equal ones once
+    EXPECT_TRUE(base::non_dominated({}, {}).empty());
+}
