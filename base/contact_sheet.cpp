@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "base/draw_text.hpp"
+#include "base/palette.hpp"
+
 namespace base {
 namespace {
 
-const cv::Scalar ink(40, 40, 44);
-const cv::Vec3b page_color(250, 249, 247);
+const cv::Vec3b page_color = rgb_of(palette::paper);
 constexpr int cell_width = 300;
 constexpr int gap = 12, label_height = 30, title_height = 44;
 
@@ -31,12 +33,6 @@ cv::Mat3b on_page(const cv::Mat4b& rgba)
 
 } // namespace
 
-void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point origin, double height_px,
-                cv::Scalar color)
-{
-    cv::putText(picture, text, origin, cv::FONT_HERSHEY_SIMPLEX, height_px / 22.0, color, 1, cv::LINE_AA);
-}
-
 cv::Mat3b sheet_picture(const cv::Mat& picture)
 {
     const cv::Mat3b opaque = picture.channels() == 4 ? on_page(picture) : cv::Mat3b(picture);
@@ -54,14 +50,14 @@ cv::Mat3b contact_sheet(const std::string& title, const std::vector<SheetCell>& 
     const int row_height = face_height + close_height + label_height + gap + 4;
     const int rows = (int(cells.size()) + columns - 1) / columns;
     cv::Mat3b page(title_height + rows * row_height + gap, gap + columns * (cell_width + gap), page_color);
-    draw_label(page, title, {gap, title_height - 16}, 14, ink);
+    draw_text(page, title, {gap, title_height - 16}, {.height = 14});
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const int x = gap + int(i) % columns * (cell_width + gap);
         const int y = title_height + int(i) / columns * row_height;
         paste(page, cells[i].face, {x, y});
         if (close_height > 0)
             paste(page, cells[i].close_up, {x, y + face_height + 4});
-        draw_label(page, cells[i].label, {x, y + face_height + close_height + 24}, 11, ink);
+        draw_text(page, cells[i].label, {x, y + face_height + close_height + 24}, {.height = 11});
     }
     return page;
 }

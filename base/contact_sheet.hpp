@@ -18,8 +18,4 @@ cv::Mat3b sheet_picture(const cv::Mat& picture);
 /// Rows of at most `columns` days; face above close-up above label. RGB order.
 cv::Mat3b contact_sheet(const std::string& title, const std::vector<SheetCell>& cells, int columns);
 
-/// Anti-aliased text, left edge and base line at `origin`.
-void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point origin, double height_px,
-                cv::Scalar color);
-
 } // namespace base

@@ -1,20 +1,17 @@
 #include "apps/bake/pictures.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
+
+#include "base/axis.hpp"
+#include "base/canvas.hpp"
 
 namespace bake_command {
 
 namespace {
 
-const cv::Scalar ink(40, 40, 40), faint(215, 215, 215);
-
-void write(cv::Mat3b& picture, const std::string& text, cv::Point at, double scale = 0.4)
-{
-    cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, scale, ink, 1, cv::LINE_AA);
-}
+constexpr double heading = 11, text = 9; // px, of a capital letter
 
 cv::Mat3b encoded(const cv::Mat3f& linear)
 {
@@ -25,62 +22,58 @@ cv::Mat3b encoded(const cv::Mat3f& linear)
     return result;
 }
 
-cv::Scalar swatch(const base::Color& color)
+base::Paint swatch(const base::Color& color)
 {
     const cv::Vec3b rgb = base::srgb8_from_linear(color);
-    return {static_cast<double>(rgb[0]), static_cast<double>(rgb[1]), static_cast<double>(rgb[2])};
+    return base::paint(std::uint32_t{rgb[0]} << 16 | std::uint32_t{rgb[1]} << 8 | rgb[2]);
 }
 
-int width_of(const std::string& text, double scale = 0.4)
+cv::Mat3b blank(int height, int width)
 {
-    int baseline = 0;
-    return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale, 1, &baseline).width;
+    return cv::Mat3b(height, width, base::rgb_of(base::palette::white)); // braces would make a list of pixels
 }
 
-struct Tick
+double text_extent(const std::string& label)
 {
-    double value;
-    int pixel;
-};
-// Those of `values` below `last`, and both ends; without what lies closer than `gap` pixels to one before it
-// or to the end.
-template <typename Place>
-std::vector<Tick> ticks(std::initializer_list<double> values, double last, int gap, Place place)
+    return base::text_width(label, text);
+}
+
+/// Ticks along `length` pixels from `begin` on, where the table's texels hold their values: `values` below
+/// `last`, as many as are `gap` pixels apart, and `last`.
+std::vector<base::Tick> table_ticks(std::vector<double> values, float last, int texels, double begin,
+                                    double length, const base::Extent& extent, double gap)
 {
-    std::vector<Tick> result;
-    const Tick end{last, place(last)};
-    for (const double value : values)
-        if (const Tick tick{value, place(value)}; value < last && end.pixel - tick.pixel >= gap &&
-                                                  (result.empty() || tick.pixel - result.back().pixel >= gap))
-            result.push_back(tick);
-    result.push_back(end);
-    return result;
+    std::erase_if(values, [&](double value) { return value >= last; });
+    values.push_back(last);
+    std::vector<base::Tick> ticks;
+    for (const double value : values) {
+        const float share =
+            shared::lut_coordinate(static_cast<float>(value), static_cast<float>(texels), last);
+        ticks.push_back({value, begin + share * length, fmt::format("{:.3g}", value)});
+    }
+    return base::keep_apart(ticks, extent, gap);
 }
 
 void draw_table(cv::Mat3b& picture, cv::Rect area, const cv::Mat3f& table, const shared::LutAxes& axes)
 {
+    constexpr double tick = 5; // px
     cv::resize(encoded(table), picture(area), area.size(), 0, 0, cv::INTER_NEAREST);
-    const auto along = [&](double value, int texels, float last, int length) {
-        const float share =
-            shared::lut_coordinate(static_cast<float>(value), static_cast<float>(texels), last);
-        return static_cast<int>(share * static_cast<float>(length));
-    };
-    for (const auto& [depth, x] : ticks({0, .1, .5, 1, 2, 4}, axes.deepest_mm, 34, [&](double value) {
-             return area.x + along(value, table.cols, axes.deepest_mm, area.width);
-         }))
+    base::PictureCanvas canvas(picture);
+    const double left = area.x, bottom = area.br().y;
+    for (const auto& [depth, x, label] :
+         table_ticks({0, .1, .5, 1, 2, 4}, axes.deepest_mm, table.cols, left, area.width, text_extent, 10))
     {
-        cv::line(picture, {x, area.br().y}, {x, area.br().y + 5}, ink);
-        const std::string text = fmt::format("{:.3g}", depth);
-        write(picture, text, {x - width_of(text) / 2, area.br().y + 18});
+        canvas.line({x, bottom}, {x, bottom + tick}, {});
+        canvas.text({x, bottom + 18}, label, {.height = text, .anchor = base::Anchor::Middle});
     }
-    write(picture, "depth of the injury, mm", {area.x + 70, area.br().y + 40});
-    for (const auto& [day, y] :
-         ticks({0, 1, 3, 7, 14, 30, 60, 120, 365, 1000}, axes.last_day, 12,
-               [&](double value) { return area.y + along(value, table.rows, axes.last_day, area.height); }))
+    canvas.text({left + area.width / 2., bottom + 38}, "depth of the injury, mm",
+                {.height = text, .anchor = base::Anchor::Middle});
+    for (const auto& [day, y, label] : table_ticks(
+             {0, 1, 3, 7, 14, 30, 60, 120, 365, 1000}, axes.last_day, table.rows, area.y, area.height,
+             [](const std::string&) { return text; }, 4))
     {
-        cv::line(picture, {area.x - 5, y}, {area.x, y}, ink);
-        const std::string text = fmt::format("{:g}", day);
-        write(picture, text, {area.x - 9 - width_of(text), y + 4});
+        canvas.line({left - tick, y}, {left, y}, {});
+        canvas.text({left - 9, y + text / 2}, label, {.height = text, .anchor = base::Anchor::End});
     }
 }
 
@@ -91,16 +84,16 @@ cv::Mat3b draw_tables(const std::string& title, const std::vector<std::pair<std:
 {
     constexpr int side = 320, left = 60, top = 66, bottom = 60, gap = 60;
     const int count = static_cast<int>(tables.size());
-    cv::Mat3b picture(top + side + bottom, std::max(left + count * (side + gap), width_of(title, 0.5) + 16),
-                      cv::Vec3b(255, 255, 255));
-    write(picture, title, {8, 22}, 0.5);
+    cv::Mat3b picture = blank(top + side + bottom, std::max(left + count * (side + gap),
+                                                            int(base::text_width(title, heading)) + 16));
+    base::draw_text(picture, title, {8, 22}, {.height = heading});
     for (int i = 0; i < count; ++i) {
         const auto& [name, table] = tables[static_cast<std::size_t>(i)];
         const cv::Rect area(left + i * (side + gap), top, side, side);
-        write(picture, name, {area.x, top - 14}, 0.5);
+        base::draw_text(picture, name, {area.x, top - 14}, {.height = heading});
         draw_table(picture, area, table, axes);
     }
-    write(picture, "day", {8, top - 14});
+    base::draw_text(picture, "day", {8, top - 14}, {.height = text});
     return picture;
 }
 
@@ -113,23 +106,26 @@ cv::Mat3b draw_strip(const std::string& title, const std::vector<double>& days,
         const bool changes = i > 1 && days[i] - days[i - 1] != days[i - 1] - days[i - 2];
         x.push_back(x.back() + width + (changes ? gap : 0));
     }
-    cv::Mat3b picture(top + static_cast<int>(rows.size()) * (height + 8),
-                      std::max(x.back() + width + 10, width_of(title, 0.5) + 20), cv::Vec3b(255, 255, 255));
-    write(picture, title, {10, 22}, 0.5);
-    write(picture, "day", {10, 50});
+    cv::Mat3b picture = blank(top + static_cast<int>(rows.size()) * (height + 8),
+                              std::max(x.back() + width + 10, int(base::text_width(title, heading)) + 20));
+    const base::TextStyle centered{.height = text, .anchor = base::Anchor::Middle};
+    base::draw_text(picture, title, {10, 22}, {.height = heading});
+    base::draw_text(picture, "day", {10, 50}, {.height = text});
     for (std::size_t i = 0; i < days.size(); ++i)
-        write(picture, fmt::format("{:g}", days[i]), {x[i] + 16, 50});
+        base::draw_text(picture, fmt::format("{:g}", days[i]), {x[i] + width / 2, 50}, centered);
+    base::PictureCanvas canvas(picture);
     for (std::size_t r = 0; r < rows.size(); ++r) {
         const int y = top + static_cast<int>(r) * (height + 8);
-        write(picture, rows[r].name, {10, y + height / 2 - 5}, 0.45);
-        write(picture, rows[r].detail, {10, y + height / 2 + 14});
+        base::draw_text(picture, rows[r].name, {10, y + height / 2 - 5});
+        base::draw_text(picture, rows[r].detail, {10, y + height / 2 + 14}, {.height = text});
         for (std::size_t i = 0; i < rows[r].colors.size(); ++i) {
             const cv::Rect place(x[i], y, width, height);
-            if (const auto& color = rows[r].colors[i])
-                cv::rectangle(picture, place, swatch(*color), cv::FILLED);
-            else
-                write(picture, "closed", {place.x + 6, y + height / 2 + 4});
-            cv::rectangle(picture, place, faint); // white swatches are seen to be there
+            canvas.rect(place, {base::palette::grid}); // a frame: white swatches are seen to be there
+            const cv::Rect inner(place.x + 1, place.y + 1, width - 2, height - 2);
+            const auto& color = rows[r].colors[i];
+            canvas.rect(inner, {color ? swatch(*color) : base::palette::white});
+            if (!color)
+                base::draw_text(picture, "closed", {x[i] + width / 2, y + height / 2 + 4}, centered);
         }
     }
     return picture;

@@ -9,12 +9,14 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "base/axis.hpp"
 #include "base/color.hpp"
-#include "base/contact_sheet.hpp"
+#include "base/draw_text.hpp"
 #include "base/file.hpp"
 #include "base/image_io.hpp"
 #include "base/input_error.hpp"
 #include "base/number_option.hpp"
+#include "base/palette.hpp"
 #include "base/progress.hpp"
 #include "base/statistics.hpp"
 #include "scene/command_line.hpp"
@@ -39,7 +41,6 @@ struct CompareOptions : scene::SceneOptions
 
 constexpr int cell_width = 420, gap = 12, title_height = 44, label_height = 30, bar_width = 90;
 constexpr std::size_t most_rows = 24; // chosen evenly from all pictures
-const cv::Scalar ink(40, 40, 44);
 
 struct Row
 {
@@ -60,16 +61,6 @@ cv::Mat3b in_colors(const cv::Mat1f& difference, double top)
     return rgb;
 }
 
-/// 1, 2 or 5 times a power of ten, not below `value`.
-double round_above(double value)
-{
-    const double power = std::pow(10, std::floor(std::log10(std::max(value, .1))));
-    for (const double step : {1., 2., 5.})
-        if (step * power >= value)
-            return step * power;
-    return 10 * power;
-}
-
 void draw_bar(cv::Mat3b& page, cv::Rect area, double top)
 {
     cv::Mat1f ramp(area.height, 1);
@@ -77,22 +68,22 @@ void draw_bar(cv::Mat3b& page, cv::Rect area, double top)
         ramp(y) = float(top * (area.height - 1 - y) / std::max(1, area.height - 1));
     cv::resize(in_colors(ramp, top), page(area), area.size(), 0, 0, cv::INTER_NEAREST);
     for (const double share : {0., .25, .5, .75, 1.})
-        base::draw_label(page, fmt::format("{}{:g}", share == 1 ? ">= " : "", share * top),
-                         {area.br().x + 4, int(area.br().y - share * (area.height - 12))}, 10, ink);
+        base::draw_text(page, fmt::format("{}{:g}", share == 1 ? ">= " : "", share * top),
+                        {area.br().x + 4, int(area.br().y - share * (area.height - 12))});
 }
 
 cv::Mat3b draw_page(const std::array<std::string, 3>& titles, const std::vector<Row>& rows, double top)
 {
     const int cell_height = std::max(1, rows[0].a.rows * cell_width / rows[0].a.cols);
     cv::Mat3b page(title_height + int(rows.size()) * (cell_height + label_height) + gap,
-                   gap + 3 * (cell_width + gap) + bar_width, cv::Vec3b(250, 249, 247));
+                   gap + 3 * (cell_width + gap) + bar_width, base::rgb_of(base::palette::paper));
     const auto paste = [&](const cv::Mat3b& picture, int column, int y) {
         cv::resize(picture, page(cv::Rect(gap + column * (cell_width + gap), y, cell_width, cell_height)),
                    {cell_width, cell_height}, 0, 0, cv::INTER_AREA);
     };
     for (int column = 0; column < 3; ++column)
-        base::draw_label(page, titles[std::size_t(column)],
-                         {gap + column * (cell_width + gap), title_height - 16}, 14, ink);
+        base::draw_text(page, titles[std::size_t(column)],
+                        {gap + column * (cell_width + gap), title_height - 16}, {.height = 14});
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const int y = title_height + int(i) * (cell_height + label_height);
         paste(rows[i].a, 0, y);
@@ -100,7 +91,7 @@ cv::Mat3b draw_page(const std::array<std::string, 3>& titles, const std::vector<
         cv::Mat3b map = in_colors(rows[i].difference, top);
         map.setTo(cv::Scalar(225, 225, 228), ~rows[i].head);
         paste(map, 2, y);
-        base::draw_label(page, rows[i].label, {gap, y + cell_height + 20}, 11, ink);
+        base::draw_text(page, rows[i].label, {gap, y + cell_height + 20}, {.height = 11});
     }
     draw_bar(page, {gap + 3 * (cell_width + gap), title_height, 18, cell_height}, top);
     return page;
@@ -219,9 +210,9 @@ void run_compare(const CompareOptions& options)
     progress.clear();
 
     const std::string name_a = name_of(options.scene), name_b = name_of(options.other);
-    base::write_png(
-        options.out / "compare.png",
-        draw_page({"A: " + name_a, "B: " + name_b, "difference, dE2000"}, rows, round_above(top)));
+    base::write_png(options.out / "compare.png",
+                    draw_page({"A: " + name_a, "B: " + name_b, "difference, dE2000"}, rows,
+                              base::round_up(std::max(top, .1))));
     stage::fail_on_validation(renderer.device);
     base::write_json(options.out / "compare.json", {{"device", renderer.device.info().name},
                                                     {"a", scene::to_json(scenes[0])},

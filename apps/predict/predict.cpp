@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "base/draw_text.hpp"
 #include "base/file.hpp"
 #include "base/image_io.hpp"
 #include "base/input_error.hpp"
 #include "base/json_fields.hpp"
-#include "base/plot.hpp"
 #include "scene/file.hpp"
 #include "wound/prepare.hpp"
 
@@ -105,7 +105,7 @@ void draw_outline(cv::Mat3b& picture, const cv::Mat1b& mask, cv::Point2d shift, 
     cv::polylines(picture, curves, true, color, 2, cv::LINE_AA, subpixel_bits);
 }
 
-const cv::Scalar observed(255, 255, 255), predicted_color(30, 80, 255);
+constexpr base::Paint observed_paint = base::palette::white, predicted_paint = base::paint(0x1e50ff);
 
 cv::Mat3b draw_day(const PredictedDay& day, int side)
 {
@@ -114,10 +114,10 @@ cv::Mat3b draw_day(const PredictedDay& day, int side)
     cv::resize(day.srgb, picture, {}, scale, scale, scale < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
     if (day.observed.empty())
         return picture;
-    draw_outline(picture, day.observed, {}, scale, observed);
+    draw_outline(picture, day.observed, {}, scale, base::scalar_of(observed_paint));
     if (day.agreement)
         draw_outline(picture, day.predicted, centroid(day.observed) - centroid(day.predicted), scale,
-                     predicted_color);
+                     base::scalar_of(predicted_paint));
     return picture;
 }
 
@@ -221,10 +221,10 @@ cv::Mat3b draw_prediction(const Prediction& prediction)
     constexpr int column_count = 8, map_side = 200, gap_px = 6, title_height = 22; // pixels
     const int count = static_cast<int>(prediction.days.size());
     const int columns = std::min(count, column_count), rows = (count + columns - 1) / columns;
-    cv::Mat3b page(title_height + rows * (map_side + title_height + gap_px), gap_px + columns * (map_side + gap_px),
-                   cv::Vec3b(255, 255, 255));
-    base::draw_text(page, "white: seen", {gap_px, 16}, {120, 120, 120});
-    base::draw_text(page, "blue: predicted", {gap_px + 110, 16}, predicted_color);
+    cv::Mat3b page(title_height + rows * (map_side + title_height + gap_px),
+                   gap_px + columns * (map_side + gap_px), base::rgb_of(base::palette::white));
+    base::draw_text(page, "white: seen", {gap_px, 16}, {base::palette::faint});
+    base::draw_text(page, "blue: predicted", {gap_px + 110, 16}, {predicted_paint});
     for (int i = 0; i < count; ++i) {
         const PredictedDay& day = prediction.days[static_cast<std::size_t>(i)];
         const cv::Point at(gap_px + i % columns * (map_side + gap_px),

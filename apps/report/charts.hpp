@@ -1,10 +1,11 @@
-// The charts of a report's page, as SVG.
+// The charts of a report's page, as elements of it.
 #pragma once
 #include <string>
 #include <vector>
 
 #include "apps/report/comparison.hpp"
 #include "apps/report/summary.hpp"
+#include "base/palette.hpp"
 
 namespace report_command {
 
@@ -13,7 +14,7 @@ class PassColors
 {
   public:
     explicit PassColors(const std::vector<CaseSummary>& summaries);
-    std::string of(const std::string& pass) const; // "var(--c3)"
+    base::Paint of(const std::string& pass) const;
     const std::vector<std::string>& passes() const { return names_; }
 
   private:

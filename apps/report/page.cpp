@@ -4,7 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/report/charts.hpp"
-#include "base/svg.hpp"
+#include "base/html.hpp"
+#include "base/palette.hpp"
 
 namespace report_command {
 namespace {
@@ -14,19 +15,13 @@ constexpr const char* head = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>Cicatrix: what each pass costs</title>
 <style>
-:root { color-scheme: light dark; --paper: #fbfaf8; --ink: #222; --faint: #666; --grid: #ddd; --rest: #9a9a9a;
-  --note: #fff1d6; --slower: #c2311f; --faster: #18794e;
-  --c0: #b5472f; --c1: #2f6fb5; --c2: #3d8f4d; --c3: #8a56b0; --c4: #c98a12; --c5: #178a8a; --c6: #c2549b;
-  --c7: #77701f; --c8: #4f5fc4; --c9: #8c5a3c; }
-@media (prefers-color-scheme: dark) { :root { --paper: #17181a; --ink: #e8e6e3; --faint: #a2a2a2;
-  --grid: #3a3c3f; --rest: #7c7c7c; --note: #453510; --slower: #ff7b66; --faster: #5cd39a;
-  --c0: #e77b62; --c1: #6ba6ea; --c2: #77c787; --c3: #bb8fdd; --c4: #e8b44c; --c5: #53c4c4; --c6: #e68fc6;
-  --c7: #b9b25c; --c8: #939ef0; --c9: #c79a7e; } }
-body { background: var(--paper); color: var(--ink); font: 15px/1.5 system-ui, sans-serif; max-width: 1080px;
+)";
+constexpr const char* style =
+    R"(body { background: var(--paper); color: var(--ink); font: 15px/1.5 system-ui, sans-serif; max-width: 1080px;
   margin: 2em auto; padding: 0 1em; }
 h1 { font-size: 1.6em; } h2 { margin-top: 2em; border-bottom: 1px solid var(--grid); }
 h3 { font-size: 1em; margin-bottom: 0; }
-svg { width: 100%; display: block; } svg text { font: 12px system-ui, sans-serif; }
+svg { width: 100%; display: block; }
 table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; margin: .5em 0; }
 th, td { text-align: right; padding: .15em .5em; white-space: nowrap; border-bottom: 1px solid var(--grid); }
 th { color: var(--faint); font-weight: normal; } td:first-child, th:first-child, .words td { text-align: left; }
@@ -160,7 +155,7 @@ std::string report_page(const json& facts, const std::vector<CaseSummary>& summa
                         const std::optional<Comparison>& comparison)
 {
     const PassColors colors(summaries);
-    std::string page = std::string(head) + "<h1>Cicatrix: what each pass costs</h1>\n";
+    std::string page = head + base::css_variables() + style + "<h1>Cicatrix: what each pass costs</h1>\n";
     if (facts.at("device").at("software_rasteriser"))
         page += "<p class=\"note\">This device is a software rasteriser: what is called GPU here is the "
                 "machine's own processor.</p>\n";

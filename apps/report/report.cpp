@@ -24,6 +24,8 @@ namespace report_command {
 namespace {
 using nlohmann::json;
 
+const cv::Size sweep_size(800, 400); // of a sweep's chart, px
+
 struct ReportOptions : scene::SceneOptions
 {
     std::filesystem::path out = "out/report", against;
@@ -138,7 +140,11 @@ void sweep(const ReportOptions& options, const scene::Scene& scene, const gpu::D
         const Sweep measured =
             measure_sweep(kind, scene, device, library, rounds, rounds_of(progress, kind, rounds));
         progress.clear();
-        base::write_png(options.out / fmt::format("sweep_{}.png", kind), draw_sweep(measured, device.info()));
+        const base::Chart chart = sweep_chart(measured, device.info());
+        base::write_png(options.out / fmt::format("sweep_{}.png", kind),
+                        base::chart_picture(chart, sweep_size));
+        base::write_text(options.out / fmt::format("sweep_{}.svg", kind),
+                         base::chart_svg(chart, sweep_size, base::SvgUse::StandAlone));
         record.push_back(to_json(measured));
         fmt::print("{}\n", to_text(measured));
     }
@@ -148,8 +154,8 @@ void sweep(const ReportOptions& options, const scene::Scene& scene, const gpu::D
     all.update(facts);
     all["sweeps"] = record;
     base::write_json(options.out / "sweep.json", all);
-    fmt::print("{}: sweep.json and {} plots in {}\n", device_title(device.info()), options.sweeps.size(),
-               options.out.string());
+    fmt::print("{}: sweep.json and {} charts, PNG and SVG, in {}\n", device_title(device.info()),
+               options.sweeps.size(), options.out.string());
 }
 
 void report(const ReportOptions& options)

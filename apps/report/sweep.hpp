@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
-#include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/chart.hpp"
 #include "base/statistics.hpp"
 #include "scene/scene.hpp"
 #include "stage/measurement.hpp"
@@ -41,7 +41,7 @@ Sweep measure_sweep(const std::string& kind, const scene::Scene& scene, const gp
 
 std::string to_text(const Sweep& sweep);
 nlohmann::json to_json(const Sweep& sweep);
-/// Both axes logarithmic, RGB.
-cv::Mat3b draw_sweep(const Sweep& sweep, const gpu::DeviceInfo& device);
+/// Both axes logarithmic.
+base::Chart sweep_chart(const Sweep& sweep, const gpu::DeviceInfo& device);
 
 } // namespace report_command

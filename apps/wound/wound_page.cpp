@@ -7,8 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "base/chart.hpp"
 #include "base/color.hpp"
-#include "base/plot.hpp"
+#include "base/draw_text.hpp"
 #include "wound/contour.hpp"
 #include "wound/depth.hpp"
 #include "wound/warp/warp.hpp"
@@ -19,22 +20,25 @@ namespace {
 
 constexpr int tile_side = 264, gap_px = 8, column_count = 6, title_height = 24; // pixels
 constexpr int page_width = column_count * (tile_side + gap_px) + gap_px;
-constexpr int chart_height = 330;
+constexpr int charts_height = 330;
 constexpr std::array shown_ratios{1., .8, .6, .4, .2, .05};
 constexpr double shown_ratio = .4; // of the displacements and the grid: the paper's Figure 4
-const cv::Scalar paper_color(255, 255, 255), border_color(0, 150, 70), point_color(200, 30, 30), arrow(20, 60, 200);
+constexpr base::Paint paper = base::palette::white, border_paint = base::paint(0x009646),
+                      point_paint = base::paint(0xc81e1e), arrow_paint = base::paint(0x143cc8);
 
 /// Page position of a tile.
 cv::Rect tile(int row, int column)
 {
-    return {gap_px + column * (tile_side + gap_px), title_height + row * (tile_side + title_height + gap_px), tile_side, tile_side};
+    return {gap_px + column * (tile_side + gap_px), title_height + row * (tile_side + title_height + gap_px),
+            tile_side, tile_side};
 }
 
 void put(cv::Mat3b& page, const cv::Mat3b& picture, int row, int column, const std::string& title)
 {
     const cv::Rect place = tile(row, column);
     cv::Mat3b scaled;
-    cv::resize(picture, scaled, place.size(), 0, 0, picture.cols > tile_side ? cv::INTER_AREA : cv::INTER_LINEAR);
+    cv::resize(picture, scaled, place.size(), 0, 0,
+               picture.cols > tile_side ? cv::INTER_AREA : cv::INTER_LINEAR);
     scaled.copyTo(page(place));
     base::draw_text(page, title, {place.x, place.y - 7});
 }
@@ -45,28 +49,29 @@ cv::Point sixteenths(cv::Point2d p, int size)
     return {cvRound(((p.x + 1) * size / 2 - .5) * 16), cvRound(((p.y + 1) * size / 2 - .5) * 16)};
 }
 
-void outline(cv::Mat3b& picture, const std::vector<cv::Point2d>& curve, const cv::Scalar& color)
+void outline(cv::Mat3b& picture, const std::vector<cv::Point2d>& curve, base::Paint paint)
 {
     std::vector<cv::Point> points;
     for (cv::Point2d p : curve)
         points.push_back(sixteenths(p, picture.cols));
-    cv::polylines(picture, std::vector{points}, true, color, 2, cv::LINE_AA, 4);
+    cv::polylines(picture, std::vector{points}, true, base::scalar_of(paint), 2, cv::LINE_AA, 4);
 }
 
 /// The whole photograph in a square, with the mask's outline and the patch's frame.
 cv::Mat3b photograph_with_mask(const wound::Photograph& photograph, const wound::PreparedWound& wound)
 {
     const int side = std::max(photograph.srgb.cols, photograph.srgb.rows);
-    cv::Mat3b square(side, side, cv::Vec3b(255, 255, 255));
+    cv::Mat3b square(side, side, base::rgb_of(paper));
     photograph.srgb.copyTo(square(cv::Rect(cv::Point(), photograph.srgb.size())));
     const int thickness = std::max(1, side / 200);
     std::vector<std::vector<cv::Point>> curves;
     cv::findContours(wound.photo_mask, curves, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
-    cv::drawContours(square, curves, -1, border_color, thickness);
+    cv::drawContours(square, curves, -1, base::scalar_of(border_paint), thickness);
     const cv::Point2d half(wound.photo_side / 2, wound.photo_side / 2);
-    cv::rectangle(square, cv::Point(wound.photo_center - half), cv::Point(wound.photo_center + half), arrow,
-                  thickness);
-    cv::drawMarker(square, wound.photo_center, point_color, cv::MARKER_CROSS, side / 20, thickness);
+    cv::rectangle(square, cv::Point(wound.photo_center - half), cv::Point(wound.photo_center + half),
+                  base::scalar_of(arrow_paint), thickness);
+    cv::drawMarker(square, wound.photo_center, base::scalar_of(point_paint), cv::MARKER_CROSS, side / 20,
+                   thickness);
     return square;
 }
 
@@ -74,14 +79,16 @@ cv::Mat3b photograph_with_mask(const wound::Photograph& photograph, const wound:
 cv::Mat3b displacements(const cv::Mat3b& color, const wound::PreparedWound& wound)
 {
     cv::Mat3b picture = color.clone();
-    outline(picture, wound.border, border_color);
+    outline(picture, wound.border, border_paint);
     for (cv::Point2d from : wound.control_points) {
         const cv::Point2d to = from - (from - wound.centroid) * (1 - std::sqrt(shown_ratio));
-        cv::line(picture, sixteenths(from, picture.cols), sixteenths(to, picture.cols), arrow, 1,
-                 cv::LINE_AA, 4);
-        cv::circle(picture, sixteenths(from, picture.cols), 4 * 16, point_color, cv::FILLED, cv::LINE_AA, 4);
+        cv::line(picture, sixteenths(from, picture.cols), sixteenths(to, picture.cols),
+                 base::scalar_of(arrow_paint), 1, cv::LINE_AA, 4);
+        cv::circle(picture, sixteenths(from, picture.cols), 4 * 16, base::scalar_of(point_paint), cv::FILLED,
+                   cv::LINE_AA, 4);
     }
-    cv::circle(picture, sixteenths(wound.centroid, picture.cols), 6 * 16, point_color, 2, cv::LINE_AA, 4);
+    cv::circle(picture, sixteenths(wound.centroid, picture.cols), 6 * 16, base::scalar_of(point_paint), 2,
+               cv::LINE_AA, 4);
     return picture;
 }
 
@@ -91,7 +98,7 @@ cv::Mat3b warped_grid(const wound::Warp& warp, const wound::PreparedWound& wound
     constexpr int map_size = 528;
     constexpr double lines = 12; // per patch unit
     const cv::Mat2d back = wound::backward_map(warp, map_size);
-    cv::Mat3b picture(map_size, map_size, cv::Vec3b(255, 255, 255));
+    cv::Mat3b picture(map_size, map_size, base::rgb_of(paper));
     const auto cell = [&](int j, int i, int axis) { return std::floor(back(j, i)[axis] * lines); };
     for (int j = 0; j + 1 < map_size; ++j)
         for (int i = 0; i + 1 < map_size; ++i)
@@ -101,7 +108,7 @@ cv::Mat3b warped_grid(const wound::Warp& warp, const wound::PreparedWound& wound
     std::vector<cv::Point2d> today;
     for (cv::Point2d p : wound.border)
         today.push_back(wound.centroid + (p - wound.centroid) * warp.scale);
-    outline(picture, today, border_color);
+    outline(picture, today, border_paint);
     return picture;
 }
 
@@ -111,7 +118,7 @@ cv::Mat3b plainly_scaled(const cv::Mat3b& color, double ratio)
     const double scale = std::sqrt(ratio), middle = (color.cols - 1) / 2.;
     cv::Mat3b scaled;
     cv::warpAffine(color, scaled, cv::Matx23d(scale, 0, middle * (1 - scale), 0, scale, middle * (1 - scale)),
-                   color.size(), cv::INTER_AREA, cv::BORDER_CONSTANT, paper_color);
+                   color.size(), cv::INTER_AREA, cv::BORDER_CONSTANT, base::scalar_of(paper));
     return scaled;
 }
 
@@ -128,51 +135,53 @@ cv::Mat3b depth_picture(const cv::Mat1f& depth_mm)
 }
 
 /// Figure 5: depth along the line through the centroid, on several days.
-void draw_profiles(cv::Mat3b& page, cv::Rect area, const wound::PreparedWound& wound,
-                   const wound::Healing& healing)
+base::Chart profile_chart(const wound::PreparedWound& wound, const wound::Healing& healing)
 {
     double lowest = 0, deepest = 0;
     cv::minMaxLoc(wound.patch.depth_mm, &lowest, &deepest);
     const double half = wound.patch.width_mm / 2;
-    base::Plot plot(page, area, {-half, half}, {-1.1 * deepest - .1, -lowest + .3},
-                    "height over the skin through the centroid, mm", "mm");
+    base::Chart chart{.x = {.title = "along the skin", .unit = "mm", .low = -half, .high = half},
+                      .y = {.title = "height over the skin through the centroid",
+                            .unit = "mm",
+                            .low = -1.1 * deepest - .1,
+                            .high = -lowest + .3}};
     const double closed = std::min(wound::closure_day(healing.curve), 365.);
-    for (int k = 0; k < 5; ++k) {
+    for (std::uint32_t k = 0; k < 5; ++k) {
         const double day = closed * k / 4;
         const wound::HealingState state = wound::healing_at(healing, day);
         const cv::Mat1f today =
             wound::warp_image(wound.patch.depth_mm, wound::make_warp(wound.flow, state.unhealed_ratio));
         const std::vector<double> profile = wound::depth_profile(today, wound.centroid);
-        std::vector<cv::Point2d> line;
-        for (std::size_t i = 0; i < profile.size(); ++i)
-            line.emplace_back(((static_cast<double>(i) + .5) / static_cast<double>(profile.size()) * 2 - 1) *
-                                  half,
-                              -profile[i] * state.depth_scale);
-        const cv::Scalar color(200 - 40 * k, 40 + 30 * k, 40 + 45 * k);
-        plot.line(line, color);
-        plot.legend(fmt::format("day {:.0f}", day), color);
+        const std::uint32_t red = 200 - 40 * k, green = 40 + 30 * k, blue = 40 + 45 * k;
+        base::Series line{.legend = fmt::format("day {:.0f}", day),
+                          .paint = base::paint(red << 16 | green << 8 | blue),
+                          .line_width = 2};
+        for (std::size_t i = 0; i < profile.size(); ++i) {
+            const double share = (static_cast<double>(i) + .5) / static_cast<double>(profile.size());
+            line.points.emplace_back((share * 2 - 1) * half, -profile[i] * state.depth_scale);
+        }
+        chart.series.push_back(std::move(line));
     }
+    return chart;
 }
 
-void draw_ratios(cv::Mat3b& page, cv::Rect area, const wound::Healing& healing)
+base::Chart ratio_chart(const wound::Healing& healing)
 {
     const double last = std::min(1.3 * wound::closure_day(healing.curve), 365.);
-    std::vector<cv::Point2d> bed, border, depth;
+    base::Series depth{.legend = "depth, sqrt r", .paint = base::palette::rest, .line_width = 1};
+    base::Series border{.legend = "area inside the border", .paint = border_paint, .line_width = 2};
+    base::Series bed{.legend = "open bed, r", .paint = point_paint, .line_width = 2};
     double highest = 1;
     for (int i = 0; i <= 300; ++i) {
         const wound::HealingState state = wound::healing_at(healing, last * i / 300);
-        bed.emplace_back(state.day, state.unhealed_ratio);
-        border.emplace_back(state.day, state.border_ratio);
-        depth.emplace_back(state.day, state.depth_scale);
+        bed.points.emplace_back(state.day, state.unhealed_ratio);
+        border.points.emplace_back(state.day, state.border_ratio);
+        depth.points.emplace_back(state.day, state.depth_scale);
         highest = std::max(highest, state.border_ratio);
     }
-    base::Plot plot(page, area, {0, last}, {0, 1.08 * highest}, "share of day 0", "days");
-    plot.line(depth, {150, 150, 150}, 1);
-    plot.line(border, border_color);
-    plot.line(bed, point_color);
-    plot.legend("area inside the border", border_color);
-    plot.legend("open bed, r", point_color);
-    plot.legend("depth, sqrt r", {150, 150, 150});
+    return {.x = {.title = "time", .unit = "days", .low = 0, .high = last},
+            .y = {.title = "share of day 0", .low = 0, .high = 1.08 * highest},
+            .series = {depth, border, bed}};
 }
 
 } // namespace
@@ -180,7 +189,8 @@ void draw_ratios(cv::Mat3b& page, cv::Rect area, const wound::Healing& healing)
 cv::Mat3b draw_wound_page(const wound::Photograph& photograph, const wound::PreparedWound& wound,
                           const wound::Healing& healing)
 {
-    cv::Mat3b page(title_height + 3 * (tile_side + title_height + gap_px) + chart_height, page_width, cv::Vec3b(255, 255, 255));
+    cv::Mat3b page(title_height + 3 * (tile_side + title_height + gap_px) + charts_height, page_width,
+                   base::rgb_of(paper));
     const cv::Mat3b color = base::srgb_from_linear(wound.patch.color);
     const wound::Warp shown = wound::make_warp(wound.flow, shown_ratio);
     int column = 0;
@@ -204,9 +214,11 @@ cv::Mat3b draw_wound_page(const wound::Photograph& photograph, const wound::Prep
         put(page, plainly_scaled(color, shown_ratios[i]), 2, static_cast<int>(i),
             fmt::format("plainly scaled, r = {}", shown_ratios[i]));
     }
-    const int top = page.rows - chart_height;
-    draw_profiles(page, {0, top, page_width / 2, chart_height}, wound, healing);
-    draw_ratios(page, {page_width / 2, top, page_width / 2, chart_height}, healing);
+    const int top = page.rows - charts_height;
+    base::PictureCanvas canvas(page);
+    base::draw_chart(canvas, cv::Rect(0, top, page_width / 2, charts_height), profile_chart(wound, healing));
+    base::draw_chart(canvas, cv::Rect(page_width / 2, top, page_width / 2, charts_height),
+                     ratio_chart(healing));
     return page;
 }
 

@@ -352,9 +352,11 @@ TEST_F(Report, SweepsEveryKind)
         }
         EXPECT_THAT(report_command::to_text(sweep), testing::AllOf(HasSubstr("x^("), HasSubstr("fixed: ")));
         EXPECT_EQ(report_command::to_json(sweep).at("series").size(), sweep.series.size());
-        const cv::Mat3b plot = report_command::draw_sweep(sweep, gpu_test::device().info());
+        const base::Chart chart = report_command::sweep_chart(sweep, gpu_test::device().info());
+        EXPECT_TRUE(chart.x.logarithmic && chart.y.logarithmic);
+        const cv::Mat3b picture = base::chart_picture(chart, {800, 400});
         int colored = 0;
-        for (const cv::Vec3b& pixel : plot)
+        for (const cv::Vec3b& pixel : picture)
             colored += std::abs(pixel[0] - pixel[1]) > 40 || std::abs(pixel[1] - pixel[2]) > 40;
         EXPECT_GT(colored, 500);
     }

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "base/input_error.hpp"
+#include "base/palette.hpp"
 
 namespace {
 
@@ -238,7 +239,7 @@ TEST(Fit, PictureShowsTheMeasurements)
     EXPECT_EQ(picture.size(), cv::Size(960, 640));
     int dark = 0;
     for (const cv::Vec3b& p : picture)
-        dark += p == cv::Vec3b(30, 30, 30); // the points' colour
+        dark += p == base::rgb_of(base::palette::ink); // the points' colour
     EXPECT_GT(dark, 14 * 40);
 }
 

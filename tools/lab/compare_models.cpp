@@ -8,11 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "base/chart.hpp"
 #include "base/file.hpp"
 #include "base/image_io.hpp"
 #include "base/input_error.hpp"
 #include "base/progress.hpp"
-#include "tools/lab/named_plot.hpp"
+#include "base/statistics.hpp"
 #include "tools/lab/reflectance.hpp"
 #include "wound/optics/tissue_choice.hpp"
 #include "wound/reflectance_table.hpp"
@@ -300,10 +301,16 @@ void print_table_sizes(const ordered_json& sizes, std::ostream& out)
     }
 }
 
-// One point for each model: error over all stacks against mean cost. The reference has no error to show.
-std::vector<PlotPoint> frontier(const std::vector<MeasuredStack>& ladder)
+// Mean cost per channel and error over all stacks of each model. The reference has no error to show.
+struct ModelCost
 {
-    std::vector<PlotPoint> points;
+    std::string name;
+    double microseconds = 0, rms_error = 0;
+};
+
+std::vector<ModelCost> model_costs(const std::vector<MeasuredStack>& ladder)
+{
+    std::vector<ModelCost> costs;
     for (std::size_t r = 0; r + 1 < optics::all_reflectance_models().size(); ++r) {
         double squares = 0, cost = 0;
         for (const MeasuredStack& stack : ladder) {
@@ -311,10 +318,32 @@ std::vector<PlotPoint> frontier(const std::vector<MeasuredStack>& ladder)
             cost += 1e6 * stack.models[r].seconds;
         }
         const auto count = static_cast<double>(ladder.size());
-        points.push_back({std::string(optics::name(optics::all_reflectance_models()[r])), cost / count,
-                          std::max(1e-6, std::sqrt(squares / count))});
+        costs.push_back({std::string(optics::name(optics::all_reflectance_models()[r])), cost / count,
+                         std::max(1e-6, std::sqrt(squares / count))});
     }
-    return points;
+    return costs;
+}
+
+base::Chart cost_chart(const std::vector<ModelCost>& costs)
+{
+    base::Series models{.paint = base::series_paint(0), .radius = 5};
+    std::vector<double> cost, error;
+    for (const ModelCost& model : costs) {
+        models.points.emplace_back(model.microseconds, model.rms_error);
+        models.names.push_back(model.name);
+        cost.push_back(model.microseconds);
+        error.push_back(model.rms_error);
+    }
+    base::Series frontier{.legend = "no other model is cheaper and nearer",
+                          .paint = base::palette::rest,
+                          .line_width = 1,
+                          .path = base::Path::Staircase};
+    for (const std::size_t i : base::non_dominated(cost, error))
+        frontier.points.push_back(models.points[i]);
+    return {.title = "Models of skin's reflectance",
+            .x = {.title = "cost per channel", .unit = "microseconds", .logarithmic = true},
+            .y = {.title = "rms error against Monte Carlo", .logarithmic = true},
+            .series = {frontier, models}};
 }
 
 } // namespace
@@ -327,12 +356,11 @@ void compare(const TableOptions& options, std::ostream& out)
     const std::vector<MeasuredStack> ladder = measure_models(options.reflectance_options, progress);
     progress.clear();
     print_ladder(ladder, out);
-    const std::vector<PlotPoint> points = frontier(ladder);
-    for (const PlotPoint& point : points)
-        fmt::print(out, "{:17} rms {:.4f} over all stacks at {:.2f} us per channel\n", point.name, point.y,
-                   point.x);
-    base::write_png(options.out / "compare.png",
-                    draw_plot(points, "cost per channel, microseconds", "rms error against Monte Carlo"));
+    const std::vector<ModelCost> costs = model_costs(ladder);
+    for (const ModelCost& model : costs)
+        fmt::print(out, "{:17} rms {:.4f} over all stacks at {:.2f} us per channel\n", model.name,
+                   model.rms_error, model.microseconds);
+    base::write_png(options.out / "compare.png", base::chart_picture(cost_chart(costs), {840, 480}));
     ordered_json json{{"photons", options.reflectance_options.photons},
                       {"stacks", ladder_json(ladder)},
                       {"presets", measure_presets()}};

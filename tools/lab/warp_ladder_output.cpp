@@ -3,9 +3,8 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <opencv2/imgproc.hpp>
 
-#include "base/plot.hpp"
+#include "base/chart.hpp"
 #include "tools/lab/warp_ladder.hpp"
 
 namespace lab {
@@ -74,66 +73,64 @@ std::string table(const std::vector<LadderRow>& rows, const std::string& title,
     return text;
 }
 
-cv::Scalar color_of(wound::WarpModel model)
+base::Paint paint_of(wound::WarpModel model)
 {
-    return model == wound::WarpModel::Radial ? cv::Scalar(214, 130, 20)
-           : model == wound::WarpModel::Grid ? cv::Scalar(30, 100, 190)
-                                             : cv::Scalar(110, 70, 150);
+    return base::series_paint(model == wound::WarpModel::Radial ? 4
+                              : model == wound::WarpModel::Grid ? 1
+                                                                : 3);
 }
 
-const cv::Scalar fold(225, 40, 40), limit_color(120, 120, 120);
+constexpr base::Paint fold = base::paint(0xe12828);
+constexpr double fold_radius = 7, radius = 3, line_width = 2; // px
+constexpr double limit_width = 1.5;
 
-void draw_panel(const cv::Mat3b& picture, cv::Rect area, const std::vector<LadderRow>& rows,
-                const std::string& shape)
+base::Chart panel(const std::vector<LadderRow>& rows, const std::string& shape)
 {
-    constexpr base::Range shown_ratios{.008, 1.5, true}, errors{least_drawn, 1000, true};
-    base::Plot plot(picture, area, shown_ratios, errors, shape, "r");
-    plot.line({{shown_ratios.low, error_limit}, {shown_ratios.high, error_limit}}, limit_color, 1);
+    base::Chart chart{
+        .title = shape,
+        .x = {.title = "r", .low = .008, .high = 1.5, .logarithmic = true},
+        .y = {.title = "error", .unit = "texels", .low = least_drawn, .high = 1000, .logarithmic = true},
+        .references = {{.at = error_limit, .width = limit_width}}};
     for (const wound::WarpModel model :
          {wound::WarpModel::Dense, wound::WarpModel::Radial, wound::WarpModel::Grid})
     {
-        std::vector<cv::Point2d> points, shrinking, folded;
+        base::Series folded{.paint = fold, .radius = fold_radius};
+        base::Series shrinking{.paint = paint_of(model), .line_width = line_width};
+        base::Series all{.paint = paint_of(model), .radius = radius};
         for (const double ratio : ladder_ratios) {
             const LadderRow& row = find(rows, shape, model, ratio);
-            points.emplace_back(ratio, std::max(row.error_texels, least_drawn));
+            const cv::Point2d point(ratio, std::max(row.error_texels, least_drawn));
+            all.points.push_back(point);
             if (ratio < 1) // in between, at 1, every warp is the identity
-                shrinking.push_back(points.back());
+                shrinking.points.push_back(point);
             if (row.folded_texels > 0)
-                folded.push_back(points.back());
+                folded.points.push_back(point);
         }
-        plot.points(folded, fold, 7);
-        plot.line(shrinking, color_of(model), 2);
-        plot.points(points, color_of(model), 3);
+        chart.series.insert(chart.series.end(), {folded, shrinking, all});
     }
+    return chart;
 }
 
-void draw_legend(const cv::Mat3b& picture, cv::Rect area)
+std::vector<base::LegendEntry> legend()
 {
-    cv::Mat3b target = picture;
-    cv::Point at = area.tl() + cv::Point(56, 50);
-    const auto entry = [&](const std::string& text) {
-        base::draw_text(picture, text, at + cv::Point(24, 0));
-        at.y += 24;
-    };
+    std::vector<base::LegendEntry> entries;
     for (const wound::WarpModel model :
          {wound::WarpModel::Radial, wound::WarpModel::Grid, wound::WarpModel::Dense})
-    {
-        cv::line(target, at + cv::Point(-6, -5), at + cv::Point(16, -5), color_of(model), 2, cv::LINE_AA);
-        cv::circle(target, at + cv::Point(5, -5), 3, color_of(model), cv::FILLED, cv::LINE_AA);
-        entry(wound::name_of(model));
-    }
-    cv::circle(target, at + cv::Point(5, -5), 7, fold, cv::FILLED, cv::LINE_AA);
-    entry("folded somewhere");
-    cv::line(target, at + cv::Point(-6, -5), at + cv::Point(16, -5), limit_color, 1);
-    entry(fmt::format("the limit, {} texel", error_limit));
-    at += cv::Point(-6, 8);
+        entries.push_back({wound::name_of(model), paint_of(model), line_width, radius});
+    entries.push_back({"folded somewhere", fold, 0, fold_radius});
+    entries.push_back({fmt::format("the limit, {} texel", error_limit), base::palette::faint, limit_width});
+    return entries;
+}
+
+void draw_explanation(base::Canvas& canvas, const cv::Rect2d& area)
+{
+    const std::vector<base::LegendEntry> entries = legend();
+    base::draw_legend(canvas, area + cv::Point2d(20, 40), entries);
+    double y = area.y + 150;
     for (const std::string& line :
-         {std::string("largest distance from the"), std::string("composed map, texels of 512 x 512;"),
+         {std::string("error: largest distance from the"), std::string("composed map, texels of 512 x 512;"),
           fmt::format("below {} it lies on the axis", least_drawn)})
-    {
-        base::draw_text(picture, line, at);
-        at.y += 18;
-    }
+        canvas.text({area.x + 20, y += 18}, line, {base::palette::ink, 9});
 }
 
 } // namespace
@@ -220,17 +217,19 @@ std::string ladder_csv(const std::vector<LadderRow>& rows)
 
 cv::Mat3b draw_ladder(const std::vector<LadderRow>& rows)
 {
-    constexpr int column_count = 4, page_width = 300, height = 240;
+    constexpr int column_count = 4, panel_width = 300, panel_height = 240; // px
     const std::vector<std::string> shapes = shapes_of(rows);
     const int count = static_cast<int>(shapes.size()) + 1; // and the legend
-    const auto panel = [](int i) {
-        return cv::Rect(i % column_count * page_width, i / column_count * height, page_width, height);
+    const auto place = [](int i) {
+        return cv::Rect2d(i % column_count * panel_width, i / column_count * panel_height, panel_width,
+                          panel_height);
     };
-    cv::Mat3b picture((count + column_count - 1) / column_count * height, column_count * page_width,
-                      cv::Vec3b(255, 255, 255));
+    cv::Mat3b picture((count + column_count - 1) / column_count * panel_height, column_count * panel_width,
+                      base::rgb_of(base::palette::white));
+    base::PictureCanvas canvas(picture);
     for (int i = 0; i + 1 < count; ++i)
-        draw_panel(picture, panel(i), rows, shapes[i]);
-    draw_legend(picture, panel(count - 1));
+        base::draw_chart(canvas, place(i), panel(rows, shapes[i]));
+    draw_explanation(canvas, place(count - 1));
     return picture;
 }
 
