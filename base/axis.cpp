@@ -11,9 +11,9 @@
 namespace base {
 namespace {
 
-constexpr std::size_t few = 3; // ticks: fewer say little about a logarithmic axis
+constexpr std::size_t fewest_decades = 3; // ticks; with fewer, a logarithmic axis tries linear steps
 
-/// The shorter of 100000 and 1e5 that reads back as the value.
+/// Writes 100000 as such or as 1e5, whichever is shorter; both parse to the value.
 std::string label_of(double value)
 {
     const std::string plain = fmt::format("{:.10g}", value);
@@ -29,7 +29,7 @@ std::string label_of(double value)
     return same && power.size() < plain.size() && plain.size() > 6 ? power : plain;
 }
 
-bool all_apart(const std::vector<Tick>& ticks, const Extent& extent, double gap)
+bool no_labels_overlap(const std::vector<Tick>& ticks, const Extent& extent, double gap)
 {
     for (std::size_t i = 1; i < ticks.size(); ++i)
         if (std::abs(ticks[i].at - ticks[i - 1].at) <
@@ -38,7 +38,7 @@ bool all_apart(const std::vector<Tick>& ticks, const Extent& extent, double gap)
     return true;
 }
 
-/// Multiples of `step`.
+/// Ticks at the multiples of `step`.
 std::vector<Tick> multiples(const Scale& scale, double step)
 {
     std::vector<Tick> ticks;
@@ -55,12 +55,12 @@ std::vector<Tick> linear_ticks(const Scale& scale, const Extent& extent, double 
     const double most = std::max(1., std::abs(scale.end - scale.begin) / gap);
     double step = round_up(range / most);
     std::vector<Tick> ticks = multiples(scale, step);
-    while (!all_apart(ticks, extent, gap))
+    while (!no_labels_overlap(ticks, extent, gap))
         ticks = multiples(scale, step = round_up(1.5 * step));
     return ticks;
 }
 
-/// `steps` times the powers of ten of every `stride`-th exponent.
+/// Ticks at `steps` times powers of ten; uses every `stride`-th exponent.
 std::vector<Tick> decades(const Scale& scale, std::span<const double> steps, int stride)
 {
     std::vector<Tick> ticks;
@@ -78,11 +78,11 @@ std::vector<Tick> logarithmic_ticks(const Scale& scale, const Extent& extent, do
 {
     constexpr std::array steps{1., 2., 5.};
     std::vector<Tick> ticks = decades(scale, steps, 1);
-    for (int stride = 1; !all_apart(ticks, extent, gap); ++stride)
+    for (int stride = 1; !no_labels_overlap(ticks, extent, gap); ++stride)
         ticks = decades(scale, std::span(steps).first(1), stride);
-    if (ticks.size() >= few)
+    if (ticks.size() >= fewest_decades)
         return ticks;
-    std::vector<Tick> finer = linear_ticks(scale, extent, gap); // of less than a decade
+    std::vector<Tick> finer = linear_ticks(scale, extent, gap);
     return finer.size() > ticks.size() ? finer : ticks;
 }
 
@@ -132,7 +132,7 @@ std::vector<Tick> keep_apart(const std::vector<Tick>& ticks, const Extent& exten
         tried.push_back(tick);
         if (&tick != &ticks.back())
             tried.push_back(ticks.back());
-        if (all_apart(tried, extent, gap))
+        if (no_labels_overlap(tried, extent, gap))
             kept.push_back(tick);
     }
     return kept;

@@ -1,4 +1,4 @@
-// The axes of a chart: where a value lies, and which round values get a tick.
+// The axes of a chart: maps values to pixels and chooses round values for the ticks.
 #pragma once
 #include <functional>
 #include <optional>
@@ -10,23 +10,23 @@ namespace base {
 struct Axis
 {
     std::string title, unit;         // written as "title, unit"
-    std::optional<double> low, high; // what is absent comes from the data, with a margin
-    bool logarithmic = false;        // values that are not above zero have no place on it
-    std::vector<std::string> rows;   // instead of numbers, on the y axis: row i is at y = i, the first on top
+    std::optional<double> low, high; // a missing bound is taken from the data, with a margin
+    bool logarithmic = false;        // values <= 0 cannot be drawn
+    std::vector<std::string> rows;   // y axis: names instead of numbers; row i is at y = i, row 0 at the top
 };
 
-/// Values to pixels.
+/// Maps values to pixels.
 struct Scale
 {
     double low = 0, high = 1; // values
     bool logarithmic = false;
     double begin = 0, end = 1; // pixels of low and high
 
-    /// None for NaN, infinity and what a logarithm has no place for.
+    /// The pixel; none for NaN, infinity and, on a logarithmic axis, values <= 0.
     std::optional<double> at(double value) const;
 };
 
-/// As it is, or about its middle when it has no width or is no range at all.
+/// Widens an empty range about its middle; replaces an invalid range by 0..1 (logarithmic: 1..10).
 Scale widened(Scale scale);
 
 struct Tick
@@ -36,16 +36,16 @@ struct Tick
     std::string label;
 };
 
-/// Pixels that a label takes along its axis.
+/// Length of a label along its axis, in pixels.
 using Extent = std::function<double(const std::string& label)>;
 
-/// Ticks inside the scale's range, 1, 2 or 5 times powers of ten, as many as can be `gap` pixels apart.
+/// Ticks at 1, 2 or 5 times powers of ten in the scale's range, as many as fit `gap` pixels apart.
 std::vector<Tick> round_ticks(const Scale& scale, const Extent& extent, double gap);
 
-/// Leaves out ticks whose label comes closer than `gap` to that of the tick before or of the last one.
+/// Drops each tick whose label is closer than `gap` to the label of the previous tick or of the last tick.
 std::vector<Tick> keep_apart(const std::vector<Tick>& ticks, const Extent& extent, double gap);
 
-/// 1, 2 or 5 times a power of ten, not below `value`, which is positive.
+/// The smallest 1, 2 or 5 times a power of ten that is >= `value`; `value` must be positive.
 double round_up(double value);
 
 } // namespace base

@@ -1,7 +1,6 @@
-// What charts are drawn on: a few shapes in pixels, x to the right, y down, whole numbers between pixels.
-// There is one canvas that writes SVG and one that draws into a picture. Both get the same coordinates, so
-// that a chart looks the same on either; the widths of texts come from text_width() (base/draw_text.hpp) for
-// both.
+// The drawing surface of charts. Coordinates are in pixels, x right, y down; integers are pixel borders.
+// SvgCanvas writes SVG and PictureCanvas draws into a picture. Both receive the same coordinates and take
+// text widths from text_width() (base/draw_text.hpp), so a chart looks the same on both.
 #pragma once
 #include <cstdint>
 #include <opencv2/core.hpp>
@@ -30,13 +29,13 @@ class Canvas
 {
   public:
     virtual ~Canvas() = default;
-    /// Tooltips appear under the pointer, where there is one.
+    /// SVG shows `tooltip` under the mouse pointer; a picture ignores it.
     virtual void rect(const cv::Rect2d& area, const Fill& fill, std::string_view tooltip = {}) = 0;
     virtual void circle(cv::Point2d center, double radius, const Fill& fill,
                         std::string_view tooltip = {}) = 0;
     virtual void polyline(const std::vector<cv::Point2d>& points, const Stroke& stroke) = 0;
     virtual void polygon(const std::vector<cv::Point2d>& points, const Fill& fill) = 0;
-    /// `at`: where the anchor is on the base line.
+    /// `at`: the position of the text's anchor on the baseline.
     virtual void text(cv::Point2d at, const std::string& text, const TextStyle& style) = 0;
 
     void line(cv::Point2d from, cv::Point2d to, const Stroke& stroke) { polyline({from, to}, stroke); }
@@ -44,14 +43,14 @@ class Canvas
 
 enum class SvgUse : std::uint8_t
 {
-    InPage,     // an element of an HTML page that has css_variables() in its style sheet
-    StandAlone, // a file of its own, on white
+    InPage,     // an element of an HTML page whose style sheet contains css_variables()
+    StandAlone, // a separate file with a white background
 };
 
 class SvgCanvas final : public Canvas
 {
   public:
-    /// `description` says what the picture shows to those who cannot see it. In a narrower window it shrinks.
+    /// `description` is read aloud by screen readers. In a page, the picture shrinks with a narrow window.
     SvgCanvas(cv::Size2d size, std::string_view description, SvgUse use);
 
     void rect(const cv::Rect2d& area, const Fill& fill, std::string_view tooltip = {}) override;

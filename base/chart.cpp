@@ -13,15 +13,15 @@ constexpr double bar_share = .85; // of a row's height
 constexpr double band_opacity = .2;
 constexpr double spread_width = 1.2; // px
 constexpr double name_clearance = 4; // px, between a dot and its name
-constexpr double far = 24;           // px: a name farther from its dot has a line to it
-constexpr double descent = .35;      // of a capital's height: letters below the base line
+constexpr double far = 24;           // px: a name farther from its dot is connected to it by a line
+constexpr double descent = .35;      // depth of letters below the baseline, relative to a capital's height
 
 cv::Size2d label_size(const std::string& text)
 {
     return {text_width(text, text_height), (1 + descent) * text_height + 2};
 }
 
-cv::Point2d base_line_of(const cv::Rect2d& label)
+cv::Point2d baseline_start(const cv::Rect2d& label)
 {
     return {label.x, label.y + text_height + 1};
 }
@@ -52,7 +52,7 @@ void draw_entries(Canvas& canvas, const std::vector<PlacedEntry>& entries)
     }
 }
 
-/// One chart on its way to the canvas: layer by layer, clipped to the plot.
+/// Draws one chart layer by layer, clipped to the plot.
 class ChartDrawing
 {
   public:
@@ -82,7 +82,7 @@ class ChartDrawing
         const auto x = layout_.x.at(value.x), y = layout_.y.at(value.y);
         return x && y ? std::optional(cv::Point2d(*x, *y)) : std::nullopt;
     }
-    /// Only what lies in the plot.
+    /// The pixel of `value`; none when it lies outside the plot.
     std::optional<cv::Point2d> visible(cv::Point2d value) const
     {
         const auto at = place(value);
@@ -234,17 +234,17 @@ void ChartDrawing::draw_name(const std::string& name, Paint paint, const std::ve
 {
     const auto label = names_.place(candidates);
     if (!label)
-        return; // rather no name than one over another
+        return; // a missing name is better than overlapping names
     if (point) {
         const cv::Point2d near(std::clamp(point->x, label->x, label->x + label->width),
                                std::clamp(point->y, label->y, label->y + label->height));
         if (cv::norm(near - *point) > far)
             canvas_.line(*point, near, {palette::rest, .8});
     }
-    canvas_.text(base_line_of(*label), name, {paint, text_height});
+    canvas_.text(baseline_start(*label), name, {paint, text_height});
 }
 
-/// Beside a line of reference, above or right of it, the far end first.
+/// Candidate label positions on both sides of a reference line, from its right or top end on.
 std::vector<cv::Rect2d> places_along(const ReferenceLine& line, const Scale& scale, const cv::Rect2d& plot)
 {
     constexpr int steps = 12;

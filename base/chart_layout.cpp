@@ -7,18 +7,18 @@
 namespace base {
 namespace {
 
-constexpr double border = 8;             // px, left free around everything
+constexpr double border = 8;             // px, margin around the chart
 constexpr double title_height = 10;      // px, of a title's capitals
 constexpr double tick_gap = 6;           // px, between a tick's label and the plot
 constexpr double title_gap = 11;         // px, between the y axis' title and the plot
-constexpr double least_left = 48;        // px: charts below each other line up
+constexpr double least_left = 48;        // px, so that the plots of stacked charts align
 constexpr double least_plot = 16;        // px
 constexpr double x_gap = 44, y_gap = 20; // px, between the labels of neighbouring ticks
 constexpr double column_gap = 20;        // px, of the legend
 constexpr double data_margin = .05;      // of the range, on either side of the data
 const TextStyle tick_style{palette::faint, text_height};
 
-/// As it is, or cut and ended by dots so that it is at most `width` pixels wide.
+/// Truncates `text` with "..." when it is wider than `width` pixels.
 std::string fitted(std::string text, double width, double height = text_height)
 {
     if (text_width(text, height) <= width)
@@ -39,7 +39,7 @@ std::vector<std::string> lines_of(const std::string& text)
     return lines;
 }
 
-/// Broken between words so that no line is wider than `width`; nothing is no line.
+/// Breaks `text` between words into lines of at most `width` pixels; empty text gives no lines.
 std::vector<std::string> wrapped(const std::string& text, double width, double height)
 {
     std::vector<std::string> lines;
@@ -106,7 +106,7 @@ std::vector<LegendEntry> legend_of(const Chart& chart)
 
 // ---- The axes' ranges
 
-/// The values along one axis that should be seen.
+/// The values along one axis that its range must include.
 std::vector<double> values_along(const Chart& chart, bool x)
 {
     std::vector<double> values;
@@ -149,9 +149,9 @@ Scale scale_of(const Chart& chart, bool x)
     return scale;
 }
 
-// ---- Everything's place
+// ---- Layout
 
-/// Around the plot; those above and below it depend on the chart's width alone.
+/// The margins around the plot; those above and below depend only on the chart's content and width.
 struct Margins
 {
     std::vector<std::string> title, footnote; // lines

@@ -11,7 +11,7 @@ const cv::Matx33d xyz_from_linear(0.4124564, 0.3575761, 0.1804375, //
                                   0.2126729, 0.7151522, 0.0721750, //
                                   0.0193339, 0.1191920, 0.9503041);
 const cv::Matx33d linear_from_xyz = xyz_from_linear.inv();
-// The white is the matrix's own row sums, so that (1,1,1) is exactly neutral.
+// White is the vector of the matrix's row sums, so that (1,1,1) is exactly neutral.
 const cv::Vec3d white = xyz_from_linear * cv::Vec3d(1, 1, 1);
 
 constexpr double lab_knee = 6.0 / 29.0;
@@ -46,7 +46,7 @@ double radians(double degrees_)
     return degrees_ * std::numbers::pi / 180;
 }
 
-// Hue angle in 0..360; a colour without chroma has hue 0 by definition (Sharma et al. eq. 7).
+// Hue angle in degrees, 0..360; a colour without chroma has hue 0 by definition (Sharma et al. eq. 7).
 double hue_deg(double a, double b)
 {
     if (a == 0 && b == 0)
@@ -100,8 +100,8 @@ Color linear_from_lab(const Lab& lab)
 }
 
 // G. Sharma, W. Wu, E. Dalal 2005, "The CIEDE2000 color-difference formula: implementation notes,
-// supplementary test data, and mathematical observations", Color Research and Application 30(1). Equation
-// numbers are theirs.
+// supplementary test data, and mathematical observations", Color Research and Application 30(1). The
+// equation numbers are those of the paper.
 double delta_e2000(const Lab& x, const Lab& y)
 {
     const double pow25 = seventh(25);

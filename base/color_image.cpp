@@ -42,7 +42,7 @@ cv::Mat3b srgb_from_linear(const cv::Mat3f& linear)
 
 cv::Mat3f lab_from_linear(const cv::Mat3f& linear)
 {
-    // Not cv::cvtColor: its tables take a tenth of a second to fill on first use.
+    // Not cv::cvtColor, which takes a tenth of a second to fill its tables on first use.
     cv::Mat3f lab(linear.size());
     std::transform(linear.begin(), linear.end(), lab.begin(), [](const cv::Vec3f& p) {
         const auto inside = [](float x) { return std::clamp(double(x), 0., 1.); };

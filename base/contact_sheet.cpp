@@ -18,7 +18,7 @@ void paste(cv::Mat3b& page, const cv::Mat3b& picture, cv::Point at)
     picture.copyTo(page(cv::Rect(at, picture.size())));
 }
 
-/// Straight alpha over the page's colour.
+/// Composites straight alpha over the page's colour.
 cv::Mat3b on_page(const cv::Mat4b& rgba)
 {
     cv::Mat3b result(rgba.size());

@@ -1,4 +1,4 @@
-// The labelled page that shows a healing at one glance: per day the whole face and a close-up.
+// A page that shows the healing of wounds: for each day the whole face, a close-up and a label.
 #pragma once
 #include <opencv2/core.hpp>
 #include <string>
@@ -8,14 +8,14 @@ namespace base {
 
 struct SheetCell
 {
-    cv::Mat3b face, close_up; // sheet_picture() of them; without close-ups, all of those are empty
+    cv::Mat3b face, close_up; // from sheet_picture(); close_up is empty in every cell or in none
     std::string label;        // "day 12   41 % open"
 };
 
-/// As the sheet shows it, RGB: small, what is transparent on the page's colour. `picture` is RGB or RGBA.
+/// Scales `picture` (RGB or RGBA) to a cell's width and composites it over the page's colour. Returns RGB.
 cv::Mat3b sheet_picture(const cv::Mat& picture);
 
-/// Rows of at most `columns` days; face above close-up above label. RGB order.
+/// Each row holds at most `columns` days; in a cell, face, close-up and label from top to bottom. RGB order.
 cv::Mat3b contact_sheet(const std::string& title, const std::vector<SheetCell>& cells, int columns);
 
 } // namespace base

@@ -6,7 +6,7 @@ namespace base {
 namespace {
 
 constexpr int font = cv::FONT_HERSHEY_SIMPLEX;
-constexpr double font_height = 22; // px, of a capital letter at a scale of 1
+constexpr double font_height = 22; // px, of a capital letter at scale 1
 
 } // namespace
 

@@ -22,10 +22,10 @@ struct TextStyle
     Anchor anchor = Anchor::Start;
 };
 
-/// Of a line, in pixels. SVG's charts are laid out by it too: a browser's sans-serif is no wider.
+/// Width of one line in pixels. SVG charts use it for layout too: a browser's sans-serif font is not wider.
 double text_width(const std::string& text, double height);
 
-/// Anti-aliased; `at`: where the anchor is on the base line.
+/// Draws anti-aliased text; `at` is the position of the anchor on the baseline.
 void draw_text(cv::Mat3b& picture, const std::string& text, cv::Point at, const TextStyle& style = {});
 
 } // namespace base

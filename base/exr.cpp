@@ -1,4 +1,4 @@
-// OpenEXR files by its own library, into memory first: what is written to disk is known to be whole.
+// Writes files with the OpenEXR library, first into memory, so that only complete files reach the disk.
 #include <ImathBox.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -36,7 +36,7 @@ class MemoryStream : public Imf::OStream
     std::size_t at_ = 0;
 };
 
-/// `names`: of the picture's channels, in their order.
+/// `names`: the channel names in the picture's channel order.
 void write_channels(const std::filesystem::path& path, const cv::Mat& picture,
                     const std::vector<const char*>& names, ExrDepth depth)
 {
@@ -56,7 +56,7 @@ void write_channels(const std::filesystem::path& path, const cv::Mat& picture,
         Imf::OutputFile file(stream, header);
         file.setFrameBuffer(frame);
         file.writePixels(stored.rows);
-    } // closing writes the table of lines
+    } // the destructor writes the line offset table
     write_bytes(path, stream.bytes());
 }
 

@@ -44,8 +44,8 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::size
 
 namespace {
 
-/// "[json.exception.parse_error.101] parse error at line 3, column 5: ..." without the bracket, in one line.
-std::string words_of(const json::exception& error)
+/// Removes the prefix "[json.exception.parse_error.101] " and joins the message into one line.
+std::string message_of(const json::exception& error)
 {
     std::string message = error.what();
     if (const auto bracket = message.find("] "); bracket != std::string::npos)
@@ -64,18 +64,19 @@ json read_json(const std::filesystem::path& path)
     try {
         return json::parse(bytes);
     } catch (const json::out_of_range& error) { // "number overflow parsing '1e999'"
-        throw InputError(path.string(), "holds a number out of range: " + words_of(error),
-                         "give numbers below 1.8e308 in size");
+        throw InputError(path.string(), "contains a number out of range: " + message_of(error),
+                         "use numbers of magnitude below 1.8e308");
     } catch (const json::exception& error) {
-        throw InputError(path.string(), "is not valid JSON: " + words_of(error), "mend the file there");
+        throw InputError(path.string(), "is not valid JSON: " + message_of(error),
+                         "correct the file at that place");
     }
 }
 
 std::string file_version(const std::filesystem::path& path)
 {
-    std::error_code absent;
-    const auto time = std::filesystem::last_write_time(path, absent);
-    return fmt::format("{}@{}|", path.string(), absent ? 0 : time.time_since_epoch().count());
+    std::error_code error;
+    const auto time = std::filesystem::last_write_time(path, error);
+    return fmt::format("{}@{}|", path.string(), error ? 0 : time.time_since_epoch().count());
 }
 
 void make_folder(const std::filesystem::path& folder)
@@ -104,7 +105,7 @@ void write_file(const std::filesystem::path& path, std::span<const std::uint8_t>
     errno = 0;
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
     file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    file.close(); // flushes: a full disk shows here
+    file.close(); // flushes, so that a full disk is detected below
     if (!file)
         throw InputError(path.string(), fmt::format("cannot be written: {}", std::strerror(errno)),
                          "choose a folder that exists, can be written to and has room");
@@ -116,12 +117,12 @@ std::filesystem::path temporary_beside(const std::filesystem::path& path)
     std::error_code error;
     if (!std::filesystem::is_directory(folder, error))
         throw InputError(path.string(), fmt::format("there is no folder {}", folder.string()),
-                         "make it first");
+                         "create it first");
     if (access(folder.c_str(), W_OK) != 0 || std::filesystem::is_directory(path, error))
         throw InputError(path.string(), "cannot be written there", "choose a folder that can be written to");
     static std::atomic<unsigned> count = 0;
     std::filesystem::path temporary = path;
-    // The extension stays last, for writers that choose a format by it.
+    // Keeps the extension, because some writers choose the format by it.
     temporary.replace_filename(
         fmt::format(".{}.{}-{}{}", path.stem().string(), getpid(), count++, path.extension().string()));
     return temporary;
@@ -141,7 +142,7 @@ void write_bytes(const std::filesystem::path& path, std::span<const std::uint8_t
     write_atomically(path, [&](const std::filesystem::path& temporary) {
         try {
             write_file(temporary, bytes);
-        } catch (const InputError& error) { // the user knows no temporary
+        } catch (const InputError& error) { // name the user's file, not the temporary
             throw InputError(path.string(), error.problem(), error.cure());
         }
     });

@@ -1,5 +1,5 @@
-// A user's files, read whole and written whole, with errors that the user can act on. Writing is atomic: a
-// temporary file beside the final one is written, checked, and takes its name.
+// Reads and writes whole files, with error messages that tell the user what to do. Writing is atomic: a
+// temporary file beside the final one is written, checked and renamed.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,34 +14,34 @@
 
 namespace base {
 
-/// The bytes of a regular file. Throws InputError when it is missing, no regular file, empty, unreadable or
-/// larger than `max_bytes`.
+/// The bytes of a regular file. Throws InputError when the file is missing, not regular, empty, unreadable
+/// or larger than `max_bytes`.
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::size_t max_bytes);
 
 /// Parses a file of at most 64 MB; throws InputError naming the file and, for broken JSON, the line.
 nlohmann::json read_json(const std::filesystem::path& path);
 
-/// Names a path and when its file was last written: what was made from the file is good as long as this
-/// stands.
+/// A cache key of the path and the file's modification time: data derived from the file is valid as long
+/// as the key does not change.
 std::string file_version(const std::filesystem::path& path);
 
-/// Throws InputError when the folder cannot be made or written to.
+/// Creates the folder and its parents. Throws InputError when it cannot be created or written to.
 void make_folder(const std::filesystem::path& folder);
 
-/// cicatrix/ in XDG_CACHE_HOME, else in ~/.cache.
+/// cicatrix/ in $XDG_CACHE_HOME, else in ~/.cache, else in the system's temporary folder.
 std::filesystem::path cache_folder();
 
-/// Creates or replaces a file, not atomically: give it the temporary of write_atomically. Throws InputError
-/// when not everything could be written.
+/// Creates or replaces a file, not atomically; use it for the temporary of write_atomically. Throws
+/// InputError when the file cannot be written completely.
 void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 
-/// The two halves of write_atomically that need no template.
+/// The two steps of write_atomically that need no template.
 std::filesystem::path temporary_beside(const std::filesystem::path& path);
 void rename_over(const std::filesystem::path& temporary, const std::filesystem::path& path);
 
-/// Runs `write(temporary)` and renames the temporary to `path`; on any failure the temporary is gone and
-/// `path` is as it was. `write` takes the temporary's path, which lies beside `path`, and must throw when it
-/// could not write everything. Throws InputError when the temporary cannot be made or renamed.
+/// Runs `write(temporary)` and renames the temporary to `path`. `write` takes the path of a temporary file in
+/// the folder of `path` and must throw when it cannot write everything. On any failure the temporary is
+/// removed and `path` is unchanged. Throws InputError when the temporary cannot be created or renamed.
 template <typename Write>
 void write_atomically(const std::filesystem::path& path, Write&& write)
 {
@@ -56,7 +56,7 @@ void write_atomically(const std::filesystem::path& path, Write&& write)
     }
 }
 
-/// Atomic. Throw InputError when the file cannot be written whole.
+/// Atomic. Throw InputError when the file cannot be written completely.
 void write_bytes(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 void write_text(const std::filesystem::path& path, std::string_view text);
 void write_json(const std::filesystem::path& path, const nlohmann::json& json); // indented

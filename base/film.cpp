@@ -32,7 +32,7 @@ void close_file(int& file)
     file = -1;
 }
 
-/// What ffmpeg printed; its last line says why it gave up.
+/// The last line that ffmpeg printed, which gives the reason of a failure.
 std::string last_line(int log)
 {
     std::string text(4096, '\0');
@@ -51,10 +51,10 @@ std::vector<std::string> arguments(cv::Size size, double fps, const std::filesys
 {
     return {
         "ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y",
-        // what comes: sRGB pictures, full range
+        // input: sRGB pictures, full range
         "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size",
         fmt::format("{}x{}", size.width, size.height), "-framerate", fmt::format("{}", fps), "-i", "pipe:0",
-        // what goes: the matrix and range that players take for granted, and said so in the file
+        // output: the colour matrix and range that players assume by default, also tagged in the file
         "-vf",
         "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bicubic,format=yuv420p",
         "-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
@@ -71,7 +71,7 @@ void Film::check_ffmpeg()
     for (std::string folder; std::getline(folders, folder, ':');)
         if (::access((std::filesystem::path(folder) / "ffmpeg").c_str(), X_OK) == 0)
             return;
-    throw InputError("--video", "needs the program ffmpeg, which is not there", install);
+    throw InputError("--video", "needs the program ffmpeg, which was not found", install);
 }
 
 Film::Film(std::filesystem::path path, std::array<std::uint32_t, 2> size, double fps)
@@ -93,10 +93,10 @@ Film::~Film()
 
 void Film::start(double fps)
 {
-    // A pair of sockets rather than a pipe: writing to one whose reader has gone can be an error instead of a
-    // signal.
+    // Sockets rather than a pipe: with MSG_NOSIGNAL, writing after ffmpeg has exited is an error, not
+    // SIGPIPE.
     std::array<int, 2> ends{-1, -1};
-    log_ = ::memfd_create("ffmpeg's words", MFD_CLOEXEC);
+    log_ = ::memfd_create("ffmpeg's output", MFD_CLOEXEC);
     if (log_ < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
         fail(std::strerror(errno));
     pipe_ = ends[0];
@@ -110,7 +110,7 @@ void Film::start(double fps)
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&actions, log_, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, log_, STDERR_FILENO);
-    // In a group of its own: Ctrl-C is for us, and we end it.
+    // In a separate process group: Ctrl-C reaches only this program, which then stops ffmpeg.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -150,7 +150,7 @@ void Film::finish()
     rename_over(temporary_, path_);
 }
 
-/// Lets ffmpeg see the end and waits for its own. Its exit code, 0 when there is no process any more.
+/// Closes ffmpeg's input and waits until it exits. Returns its exit code, or 0 when no process is running.
 int Film::wait()
 {
     close_file(pipe_);
@@ -166,11 +166,11 @@ int Film::wait()
 void Film::fail(const std::string& what)
 {
     wait();
-    std::string words = what.empty() ? last_line(log_) : what;
-    if (words.empty())
-        words = "it ended without a word";
-    throw InputError(path_.string(), "ffmpeg failed: " + words,
-                     "see that the disk has room and that ffmpeg has the encoder libx264");
+    std::string reason = what.empty() ? last_line(log_) : what;
+    if (reason.empty())
+        reason = "it printed no message";
+    throw InputError(path_.string(), "ffmpeg failed: " + reason,
+                     "check that the disk has space and that ffmpeg has the encoder libx264");
 }
 
 } // namespace base

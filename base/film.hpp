@@ -1,4 +1,4 @@
-// A film, encoded by the program ffmpeg: raw pictures go down a pipe, an H.264 file comes out.
+// A video encoded by the program ffmpeg: raw pictures go through a socket into ffmpeg, which writes H.264.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -8,12 +8,12 @@
 
 namespace base {
 
-/// H.264 in MP4, 4:2:0, BT.709: what every player, browser and slide program shows. Whole or absent: the file
-/// appears in finish(); without it, ffmpeg is ended and nothing is left.
+/// H.264 in MP4, 4:2:0, BT.709: the format that all common players, browsers and slide programs support.
+/// finish() creates the file; a Film destroyed without it stops ffmpeg and leaves no file.
 class Film
 {
   public:
-    /// Throws InputError when no ffmpeg is found: to be called before long work.
+    /// Throws InputError when ffmpeg is not found. Call it before long work.
     static void check_ffmpeg();
 
     /// Starts ffmpeg. An odd width or height is made even by repeating the last column or row. Throws
@@ -23,8 +23,8 @@ class Film
     Film(const Film&) = delete;
     Film& operator=(const Film&) = delete;
 
-    /// The next picture, RGB, of the film's size. Throws InputError, with ffmpeg's own words, when
-    /// ffmpeg has failed.
+    /// Adds the next picture, RGB, of the size given to the constructor. Throws InputError with ffmpeg's
+    /// message when ffmpeg has failed.
     void add(const cv::Mat3b& picture);
     void finish();
 
@@ -34,7 +34,7 @@ class Film
     [[noreturn]] void fail(const std::string& what);
 
     const std::filesystem::path path_, temporary_;
-    const cv::Size size_; // as encoded
+    const cv::Size size_; // of the encoded video, even
     int pipe_ = -1, log_ = -1;
     pid_t process_ = -1;
 };

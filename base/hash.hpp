@@ -1,4 +1,4 @@
-// A 64-bit hash of what a pass declares: fast, the same on every run, not meant to resist an attacker.
+// A 64-bit hash of what a pass declares: fast, the same in every run, not cryptographic.
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -37,7 +37,7 @@ class Hash
 
     Hash& add(std::string_view text) { return add(std::as_bytes(std::span(text.data(), text.size()))); }
 
-    /// Never 0, which stands for "contents undefined".
+    /// Never 0, because 0 means "contents undefined".
     std::uint64_t value() const { return state ? state : 1; }
 
   private:

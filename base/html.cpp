@@ -7,8 +7,8 @@
 namespace base {
 namespace {
 
-/// Bytes of the UTF-8 sequence at the front of `text`, 0 when it is none (RFC 3629: no overlong forms, no
-/// surrogates).
+/// Length in bytes of the UTF-8 sequence at the start of `text`; 0 when it is invalid (RFC 3629: overlong
+/// forms and surrogates are invalid).
 std::size_t sequence_length(std::string_view text)
 {
     const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };

@@ -1,12 +1,12 @@
-// Text inside HTML and SVG.
+// Escapes text for HTML and SVG.
 #pragma once
 #include <string>
 #include <string_view>
 
 namespace base {
 
-/// &, <, > and quotes as entities; what XML does not allow (control characters, bytes that are no UTF-8)
-/// becomes U+FFFD, so that a page with a user's file names in it is still well-formed.
+/// Replaces &, <, > and double quotes by entities, and control characters and invalid UTF-8 by U+FFFD, so
+/// that a page that contains a user's file names is well-formed.
 std::string escaped(std::string_view text);
 
 } // namespace base

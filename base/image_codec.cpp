@@ -17,8 +17,7 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 constexpr std::uint32_t max_side = 16384; // px
 
-/// libpng, libjpeg and libtiff print to stderr from inside OpenCV and offer no switch; this closes it to
-/// them.
+/// Redirects stderr to /dev/null: OpenCV has no option that stops libpng, libjpeg and libtiff from printing.
 class QuietCodecs
 {
   public:
@@ -56,9 +55,9 @@ class QuietCodecs
 
 struct Header
 {
-    const char* format = nullptr;        // null: none we read
-    bool complete = true;                // its end marker is there
-    std::uint32_t width = 0, height = 0; // 0: not known before decoding
+    const char* format = nullptr;        // null: unsupported
+    bool complete = true;                // false: the file is truncated
+    std::uint32_t width = 0, height = 0; // px; 0: not known before decoding
 };
 
 std::uint32_t big_endian(Bytes bytes, std::size_t at, int count)
@@ -81,7 +80,7 @@ bool starts_with(Bytes bytes, std::string_view magic, std::size_t at = 0)
            std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
 }
 
-/// Walks the chunks up to IEND.
+/// Reads the chunks up to IEND.
 Header png_header(Bytes bytes)
 {
     Header header{"PNG", false};
@@ -102,8 +101,7 @@ Header png_header(Bytes bytes)
     return header;
 }
 
-/// Walks the markers up to EOI. Files of telephones carry more behind it (a film, a second picture): that is
-/// allowed.
+/// Reads the markers up to EOI. Data after EOI is allowed: phones append a video or a second picture.
 Header jpeg_header(Bytes bytes)
 {
     Header header{"JPEG", false};
@@ -176,9 +174,10 @@ cv::Mat decode_picture(Bytes bytes, Channels channels, std::string_view where)
         const QuietCodecs quiet;
         const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8U,
                              const_cast<std::uint8_t*>(bytes.data()));
-        picture = cv::imdecode(buffer, channels == Channels::Opaque ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED);
+        picture =
+            cv::imdecode(buffer, channels == Channels::Opaque ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED);
     } catch (const cv::Exception&) {
-        picture.release(); // reported below, with what OpenCV merely returns as empty
+        picture.release(); // empty, like OpenCV's other failures; reported below
     }
     if (picture.empty())
         throw InputError(where, fmt::format("the {} picture is damaged", header.format),
@@ -187,14 +186,14 @@ cv::Mat decode_picture(Bytes bytes, Channels channels, std::string_view where)
     if (picture.depth() == CV_16U)
         picture.convertTo(picture, CV_8U, 1.0 / 257.0);
     if (picture.depth() != CV_8U || picture.channels() == 2)
-        throw InputError(where, "has a pixel type that is not read", "save it as 8-bit PNG");
+        throw InputError(where, "has an unsupported pixel type", "save it as 8-bit PNG");
     return picture;
 }
 
 std::vector<std::uint8_t> encode_png(const cv::Mat& picture)
 {
     std::vector<std::uint8_t> bytes;
-    // OpenCV's own compression setting is both faster and smaller than level 1.
+    // OpenCV's default compression is faster than level 1 and gives smaller files.
     cv::imencode(".png", picture, bytes);
     return bytes;
 }

@@ -1,4 +1,4 @@
-// Pictures as bytes: what read_rgb, write_png and the glTF files share.
+// Decodes and encodes pictures in memory, for read_rgb, write_png and glTF files.
 #pragma once
 #include <cstdint>
 #include <opencv2/core.hpp>
@@ -8,17 +8,16 @@
 
 namespace base {
 
-/// What a decoded picture is wanted as.
+/// The channels of a decoded picture.
 enum class Channels : std::uint8_t
 {
     Opaque,   // three channels, upright (EXIF orientation applied), alpha dropped
-    AsStored, // one, three or four channels, not turned
+    AsStored, // one, three or four channels, EXIF orientation ignored
 };
 
 /// Decodes PNG, JPEG, WebP, BMP or TIFF to 8 bits a channel in OpenCV's order (BGR, BGRA). Throws
-/// InputError at `where` for truncated, malformed, unknown or absurdly large (> 16384 px a side)
-/// pictures. Prints nothing: while it runs, the process's stderr is closed to the codecs, which otherwise
-/// write there.
+/// InputError at `where` for truncated, malformed, unknown or too large (> 16384 px a side) pictures.
+/// Prints nothing: the process's stderr goes to /dev/null while it runs, because the codecs print there.
 cv::Mat decode_picture(std::span<const std::uint8_t> bytes, Channels channels, std::string_view where);
 
 /// PNG of an 8-bit picture in OpenCV's order.

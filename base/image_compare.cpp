@@ -47,7 +47,7 @@ Comparison compare_images(const cv::Mat3b& actual, const cv::Mat3b& expected, co
         return found;
     }
     if (actual.empty()) {
-        found.report = "there is no picture to compare";
+        found.report = "the pictures are empty";
         return found;
     }
     std::size_t above = 0;

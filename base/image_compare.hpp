@@ -1,5 +1,5 @@
-// Compares a picture with a golden one on machines that round differently. A golden picture says "changed",
-// never "wrong".
+// Compares a picture with a golden one, with tolerances for machines that round differently. A mismatch
+// means "changed", not necessarily "wrong".
 #pragma once
 #include <filesystem>
 #include <opencv2/core.hpp>
@@ -8,8 +8,8 @@
 
 namespace base {
 
-/// Two bounds: rounding may move every pixel a little, an edge may move a few pixels more, and no pixel may
-/// move far. A test that needs a wider bound says why beside it.
+/// Rounding may change every pixel by at most `usual`; a few pixels at edges may change more, but none by
+/// more than `hard`. A test with a wider bound gives the reason beside it.
 struct CompareBounds
 {
     int usual = 3;             // of 255, any channel
@@ -23,10 +23,10 @@ struct Comparison
     int largest_difference = 0; // of 255
     cv::Point largest_at{-1, -1};
     double share_above_usual = 0;
-    std::string report; // one line: what was found against which bound
+    std::string report; // one line: the differences and their bounds
 };
 
-/// The first pixel, in reading order, with a NaN or infinite channel; `linear` holds floats of any number of
+/// The first pixel in row order with a NaN or infinite channel; `linear` is 32-bit float with any number of
 /// channels.
 std::optional<cv::Point> first_non_finite(const cv::Mat& linear);
 
@@ -34,13 +34,13 @@ std::optional<cv::Point> first_non_finite(const cv::Mat& linear);
 Comparison compare_images(const cv::Mat3b& actual, const cv::Mat3b& expected,
                           const CompareBounds& bounds = {});
 
-/// |actual - expected| times `gain`, saturated: what moved, made visible. Same sizes.
+/// |actual - expected| times `gain`, saturated. Both must have the same size.
 cv::Mat3b amplified_difference(const cv::Mat3b& actual, const cv::Mat3b& expected, int gain = 16);
 
 /// A golden test: `linear`, the float picture that `actual` encodes, must be finite; then `actual` must equal
 /// the PNG `golden` within the bounds. On failure NAME_actual.png, NAME_expected.png and NAME_difference.png
-/// are written into `failures`. A golden file that does not exist is a failure that leaves NAME_actual.png to
-/// be looked at and taken.
+/// are written into `failures`. A missing golden file is a failure too: inspect NAME_actual.png and copy it
+/// to `golden`.
 Comparison compare_with_golden(const cv::Mat& linear, const cv::Mat3b& actual,
                                const std::filesystem::path& golden, const std::filesystem::path& failures,
                                const CompareBounds& bounds = {});

@@ -1,4 +1,4 @@
-// The one exception for what the machine or the user's files do wrong.
+// The exception for errors of the user's files or machine.
 #pragma once
 #include <stdexcept>
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace base {
 
-/// what() is one line: "WHERE: PROBLEM; CURE". WHERE names the file and, where there is one, the field
+/// what() is one line: "WHERE: PROBLEM; CURE". WHERE names the file and, if there is one, the field
 /// ("scene.json: /wounds/0/width_mm").
 class InputError : public std::runtime_error
 {
@@ -21,7 +21,7 @@ class InputError : public std::runtime_error
     std::string where_, problem_, cure_;
 };
 
-/// A number as people write it, for messages: 0.5, 4294967295, 1e10.
+/// A number in its shortest notation, for messages: 0.5, 4294967295, 1e10.
 std::string plain(double number);
 
 } // namespace base

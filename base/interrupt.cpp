@@ -7,9 +7,9 @@
 namespace base {
 namespace {
 
-volatile std::sig_atomic_t noted = 0;
+volatile std::sig_atomic_t interrupted = 0;
 std::mutex mutex;
-int living = 0;
+int instances = 0;
 constexpr std::array signals{SIGINT, SIGTERM};
 std::array<struct sigaction, signals.size()> before;
 
@@ -18,14 +18,14 @@ std::array<struct sigaction, signals.size()> before;
 Interruptible::Interruptible()
 {
     const std::lock_guard lock(mutex);
-    if (living++ > 0)
+    if (instances++ > 0)
         return;
     struct sigaction action = {};
-    action.sa_handler = [](int) { noted = 1; };
+    action.sa_handler = [](int) { interrupted = 1; };
     action.sa_flags = SA_RESETHAND | SA_RESTART;
     for (std::size_t i = 0; i < signals.size(); ++i) {
         sigaction(signals[i], nullptr, &before[i]);
-        if (before[i].sa_handler != SIG_IGN) // as under nohup
+        if (before[i].sa_handler != SIG_IGN) // nohup ignores signals; keep it so
             sigaction(signals[i], &action, nullptr);
     }
 }
@@ -33,16 +33,16 @@ Interruptible::Interruptible()
 Interruptible::~Interruptible()
 {
     const std::lock_guard lock(mutex);
-    if (--living > 0)
+    if (--instances > 0)
         return;
     for (std::size_t i = 0; i < signals.size(); ++i)
         sigaction(signals[i], &before[i], nullptr);
-    noted = 0;
+    interrupted = 0;
 }
 
 void check_interrupt()
 {
-    if (noted != 0)
+    if (interrupted != 0)
         throw Interrupted();
 }
 

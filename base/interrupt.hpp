@@ -1,15 +1,16 @@
-// Ctrl-C in the midst of long work: nothing half-made is left behind.
+// Stops long work at Ctrl-C by an exception, so that no incomplete files are left.
 #pragma once
 
 namespace base {
 
-/// Thrown by check_interrupt(). No std::exception: whoever goes on after an error must not go on after this.
+/// Thrown by check_interrupt(). Not a std::exception, so that code which continues after errors does not
+/// catch it.
 struct Interrupted
 {
 };
 
-/// While one lives, the first SIGINT or SIGTERM only leaves a note, which check_interrupt() finds; the next
-/// ends the process at once, as ever.
+/// While an instance exists, the first SIGINT or SIGTERM only sets a flag for check_interrupt(); the second
+/// ends the process at once.
 class Interruptible
 {
   public:
@@ -19,7 +20,7 @@ class Interruptible
     Interruptible& operator=(const Interruptible&) = delete;
 };
 
-/// Throws Interrupted when a signal has come.
+/// Throws Interrupted when a signal has arrived.
 void check_interrupt();
 
 } // namespace base

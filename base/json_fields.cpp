@@ -119,8 +119,8 @@ void Fields::finish() const
 {
     for (const auto& [name, value] : object_.items())
         if (!asked_.contains(name))
-            throw InputError(where(name), "is no field that is known there",
-                             fmt::format("known are {}", fmt::join(asked_, ", ")));
+            throw InputError(where(name), "is not a known field",
+                             fmt::format("known fields are {}", fmt::join(asked_, ", ")));
 }
 
 } // namespace base

@@ -1,5 +1,5 @@
-// Strict reading of one JSON object: each field is asked for by name, wrong types and out-of-range numbers
-// are errors that name file and field, and what was not asked for is an error too.
+// Strict reading of one JSON object. The caller requests each field by name. A wrong type, a number out of
+// range or an unrequested field is an error that names file and field.
 #pragma once
 #include <array>
 #include <nlohmann/json.hpp>
@@ -14,21 +14,21 @@ namespace base {
 class Fields
 {
   public:
-    /// `where` is "FILE: /path/in/json". Throws when `object` is no object.
+    /// `where` is "FILE: /path/in/json". Throws when `object` is not a JSON object.
     Fields(const nlohmann::json& object, std::string where);
 
     bool has(const std::string& name) const;
-    /// The field as it is, marked as known; null when absent.
+    /// Returns the field, or null when it is absent, and marks its name as known.
     const nlohmann::json* get(const std::string& name);
     double number(const std::string& name, double fallback, double low, double high);
-    /// The same, and its absence is an error.
+    /// Like number(), but a missing field is an error.
     double required_number(const std::string& name, double low, double high);
-    /// Required: a number, or an array of at least one.
+    /// A required field: a number, or an array of at least one number.
     std::vector<double> number_or_list(const std::string& name, double low, double high);
     std::int64_t integer(const std::string& name, std::int64_t fallback, std::int64_t low, std::int64_t high);
     bool boolean(const std::string& name, bool fallback);
     std::string text(const std::string& name, const std::string& fallback);
-    /// One of `allowed`.
+    /// A text that must be one of `allowed`.
     std::string choice(const std::string& name, const std::string& fallback,
                        const std::vector<std::string>& allowed);
     /// An array of exactly N finite numbers in [low, high].
@@ -45,7 +45,7 @@ class Fields
         return fallback;
     }
     std::string where(const std::string& name) const { return where_ + "/" + name; }
-    /// Call last: throws when the object holds a field that nobody asked for, and lists those that exist.
+    /// Call last: throws when the object has a field that was not requested, and lists the known fields.
     void finish() const;
 
     [[noreturn]] void fail(const std::string& name, const std::string& what, const std::string& cure) const;

@@ -39,10 +39,10 @@ std::optional<cv::Rect2d> LabelPlacement::place(const std::vector<cv::Rect2d>& c
 std::vector<cv::Rect2d> places_around(cv::Point2d point, double clearance, cv::Size2d size)
 {
     constexpr int rings = 8;
-    constexpr double between = 9; // px
+    constexpr double ring_distance = 9; // px
     std::vector<cv::Rect2d> places;
     for (int ring = 0; ring < rings; ++ring) {
-        const double off = clearance + ring * between;
+        const double off = clearance + ring * ring_distance;
         const double right = point.x + off, left = point.x - off - size.width,
                      middle = point.x - size.width / 2, above = point.y - off - size.height,
                      below = point.y + off, beside = point.y - size.height / 2;

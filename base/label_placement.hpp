@@ -1,4 +1,4 @@
-// Finds places for labels, so that none covers another one or a point, and few cover a line.
+// Finds positions for labels that overlap neither each other nor reserved rectangles and cover few lines.
 #pragma once
 #include <opencv2/core.hpp>
 #include <optional>
@@ -15,11 +15,11 @@ class LabelPlacement
     explicit LabelPlacement(const cv::Rect2d& bounds) : bounds_(bounds) {}
 
     void never_cover(const cv::Rect2d& rect) { taken_.push_back(rect); }
-    /// A line or, with both ends in one place, a point that a label covers when there is no better place.
+    /// A line (or a point, if both ends are equal) that a label covers only when no better place is free.
     void rather_not_cover(const Segment& segment) { avoided_.push_back(segment); }
 
-    /// The candidate that covers least, the first of equals; it is taken from then on. None when each of them
-    /// covers what must not be covered.
+    /// Chooses the free candidate that covers the fewest segments, the first of equals, and reserves it. None
+    /// when no candidate is free.
     std::optional<cv::Rect2d> place(const std::vector<cv::Rect2d>& candidates);
 
   private:
@@ -31,7 +31,7 @@ class LabelPlacement
     std::vector<Segment> avoided_;
 };
 
-/// Places beside a point, the nearest first: at `clearance` pixels, then farther away.
+/// Rectangles of `size` around a point, nearest first, starting `clearance` pixels away.
 std::vector<cv::Rect2d> places_around(cv::Point2d point, double clearance, cv::Size2d size);
 
 } // namespace base

@@ -10,8 +10,8 @@ namespace base {
 namespace {
 using nlohmann::json;
 
-/// The rest of the first line of `file` that starts with `key`, without blanks, colons, equals signs and
-/// quotes around it; null when there is none.
+/// The value after `key` in the first line of `file` that starts with it, without surrounding blanks, colons,
+/// equals signs and quotes; null when there is no such line.
 json line_after(const char* file, const std::string& key)
 {
     std::ifstream stream(file);

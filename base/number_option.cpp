@@ -11,7 +11,7 @@ namespace base {
 
 namespace {
 
-/// NaN when the text is no number, or one past the range of a double.
+/// NaN when the text is not a number or exceeds the range of a double.
 double number(const std::string& text)
 {
     double value = NAN;
@@ -33,7 +33,7 @@ CLI::Validator number_from(double low, double high)
                 const double value = number(text);
                 if (value >= low && value <= high) // false for NaN
                     return {};
-                return fmt::format("\"{}\" is no number from {}", text, range(low, high));
+                return fmt::format("\"{}\" is not a number from {}", text, range(low, high));
             },
             range(low, high)};
 }
@@ -43,7 +43,7 @@ CLI::Validator whole_number_from(double low, double high)
     return {[low, high](std::string& text) -> std::string {
                 const double value = number(text);
                 if (!(value >= low && value <= high && value == std::floor(value)))
-                    return fmt::format("\"{}\" is no whole number from {}", text, range(low, high));
+                    return fmt::format("\"{}\" is not a whole number from {}", text, range(low, high));
                 text = fmt::format("{}", static_cast<std::int64_t>(value));
                 return {};
             },

@@ -1,5 +1,5 @@
-// The colours of charts and pages. Each is written once: its name in a page's style sheet, its value on light
-// paper, which pictures and files of their own have, and its value where the reader prefers dark pages.
+// The colours of charts and pages. Each has a name in the page's style sheet, a value for light pages, which
+// pictures and separate files use too, and a value for dark pages.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -14,22 +14,22 @@ namespace base {
 struct Paint
 {
     std::uint32_t light = 0, dark = 0;
-    std::string_view name = {}; // of its CSS variable; empty: `light` on every page
+    std::string_view name = {}; // of the CSS variable; empty: `light` is used on every page
 };
 
-/// The same on light and on dark pages.
+/// A paint that is the same on light and dark pages.
 constexpr Paint paint(std::uint32_t rgb)
 {
     return {rgb, rgb};
 }
 
 namespace palette {
-inline constexpr Paint white = paint(0xffffff); // the ground of charts
+inline constexpr Paint white = paint(0xffffff); // the background of charts
 inline constexpr Paint paper{0xfaf9f7, 0x17181a, "paper"};
 inline constexpr Paint ink{0x28282c, 0xe8e6e3, "ink"};
-inline constexpr Paint faint{0x666666, 0xa2a2a2, "faint"}; // the text of ticks
+inline constexpr Paint faint{0x666666, 0xa2a2a2, "faint"}; // tick labels
 inline constexpr Paint grid{0xdddddd, 0x3a3c3f, "grid"};
-inline constexpr Paint rest{0x9a9a9a, 0x7c7c7c, "rest"}; // what belongs to no series
+inline constexpr Paint rest{0x9a9a9a, 0x7c7c7c, "rest"}; // anything that belongs to no series
 inline constexpr Paint note{0xfff1d6, 0x453510, "note"};
 inline constexpr Paint slower{0xc2311f, 0xff7b66, "slower"};
 inline constexpr Paint faster{0x18794e, 0x5cd39a, "faster"};
@@ -45,19 +45,19 @@ inline constexpr std::array<Paint, 10> series{{{0xb5472f, 0xe77b62, "c0"},
                                                {0x8c5a3c, 0xc79a7e, "c9"}}};
 } // namespace palette
 
-/// Of the series `index`; after the last colour the first one comes again.
+/// The paint of series `index`; the colours repeat after the last one.
 constexpr Paint series_paint(std::size_t index)
 {
     return palette::series[index % palette::series.size()];
 }
 
-/// The light value in RGB order, as a pixel and as OpenCV's drawing functions take it.
+/// The light value in RGB order, as a pixel and as the cv::Scalar of OpenCV's drawing functions.
 cv::Vec3b rgb_of(Paint paint);
 cv::Scalar scalar_of(Paint paint);
 
-/// "#28282c".
+/// Formats 0xrrggbb as "#28282c".
 std::string hex_of(std::uint32_t rgb);
-/// The style sheet's rules that define the variables --ink, --c0 ... for light and for dark pages.
+/// CSS rules that define the variables --ink, --c0 ... for light and for dark pages.
 std::string css_variables();
 
 } // namespace base

@@ -7,7 +7,7 @@
 namespace base {
 namespace {
 
-/// From the pixel nearest to one edge to that nearest to the other, at least one pixel.
+/// Rounds the edges to pixel borders; at least 1 x 1 pixel.
 cv::Rect whole_pixels(const cv::Rect2d& area)
 {
     const int x = cvRound(area.x), y = cvRound(area.y);
@@ -15,7 +15,7 @@ cv::Rect whole_pixels(const cv::Rect2d& area)
             std::max(1, cvRound(area.y + area.height) - y)};
 }
 
-/// The pixels of a picture within `margin` of two points.
+/// The picture's pixels in the bounding box of two points, enlarged by `margin` pixels.
 cv::Rect pixels_around(cv::Point2d a, cv::Point2d b, double margin, cv::Size picture)
 {
     const cv::Rect area(cv::Point(cvFloor(std::min(a.x, b.x) - margin), cvFloor(std::min(a.y, b.y) - margin)),
@@ -23,8 +23,8 @@ cv::Rect pixels_around(cv::Point2d a, cv::Point2d b, double margin, cv::Size pic
     return area & cv::Rect({}, picture);
 }
 
-/// How much of each pixel lies within `radius` of the segment, about: 1 half a pixel inside, 0 half a pixel
-/// outside. Keeps the larger of this and what `coverage` holds.
+/// Raises `coverage` to each pixel's approximate coverage by the points within `radius` of the segment: 1
+/// half a pixel inside the outline, 0 half a pixel outside.
 void cover_segment(cv::Mat1f& coverage, cv::Point2d from, cv::Point2d to, double radius)
 {
     const cv::Point2d along = to - from;
@@ -68,7 +68,7 @@ void PictureCanvas::polyline(const std::vector<cv::Point2d>& points, const Strok
     stroke(points, line.width / 2, {line.paint});
 }
 
-/// What lies within `radius` of the line, each pixel once.
+/// Fills the area within `radius` of the line; blends each pixel once, also where the line crosses itself.
 void PictureCanvas::stroke(const std::vector<cv::Point2d>& points, double radius, const Fill& fill)
 {
     if (points.empty())
@@ -91,7 +91,7 @@ void PictureCanvas::polygon(const std::vector<cv::Point2d>& points, const Fill& 
     constexpr int fraction_bits = 4; // sixteenths of a pixel
     std::vector<cv::Point> corners;
     for (const cv::Point2d& p :
-         points) // OpenCV's whole numbers are the middles of pixels, ours lie between them
+         points) // OpenCV's integers are pixel centres, those of Canvas are pixel borders
         corners.emplace_back(cvRound((p.x - .5) * (1 << fraction_bits)),
                              cvRound((p.y - .5) * (1 << fraction_bits)));
     cv::Mat1b filled(picture_.size(), uchar(0));

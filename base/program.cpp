@@ -21,7 +21,8 @@ void print_error(const CLI::App& program, std::string message)
 
 int run_program(CLI::App& program, int argc, char** argv)
 {
-    program.require_subcommand(0, 1); // that there is one is checked last, so that a misspelt one is named
+    // A missing command is reported below, so that a misspelt one is reported by its name here.
+    program.require_subcommand(0, 1);
     program.set_version_flag("--version", program.get_name() + " " CICATRIX_VERSION, "Print the version");
     try {
         program.parse(argc, argv);

@@ -1,4 +1,4 @@
-// What our programs' main() functions share: commands, --version, and how an error ends.
+// The common part of the programs' main() functions: commands, --version and error reporting.
 #pragma once
 
 namespace CLI {
@@ -7,8 +7,8 @@ class App;
 
 namespace base {
 
-/// Parses the command line and runs the command that it names. What a user's file or machine does wrong ends
-/// as one line on stderr and exit code 1; a wrong command line as one line and 2; Ctrl-C as 130.
+/// Parses the command line and runs its command. Prints an error as one line on stderr. Returns 0 on success,
+/// 1 for an error of the user's files or machine, 2 for a wrong command line, 130 for Ctrl-C.
 int run_program(CLI::App& program, int argc, char** argv);
 
 } // namespace base

@@ -28,7 +28,7 @@ void Progress::show(const std::string& what)
 {
     check_interrupt();
     const Clock::time_point now = Clock::now();
-    if (!terminal_ || now - shown_ < std::chrono::milliseconds(100)) // a terminal is slow, and so is the eye
+    if (!terminal_ || now - shown_ < std::chrono::milliseconds(100)) // terminals are slow
         return;
     shown_ = now;
     const double elapsed = std::chrono::duration<double>(now - start_).count();

@@ -1,5 +1,5 @@
-// One line on a terminal that says how far long work is: count, percentage, time left. On anything else than
-// a terminal it says nothing. Where it is told of progress, Ctrl-C is heeded.
+// Shows the progress of long work in one terminal line: count, percentage, time left. Prints nothing when
+// stderr is not a terminal. show() also handles Ctrl-C.
 #pragma once
 #include <chrono>
 #include <cstddef>
@@ -12,18 +12,19 @@ namespace base {
 class Progress
 {
   public:
-    /// Shown on stderr, when that is a terminal and `shown`.
+    /// Prints to stderr if `shown` is true and stderr is a terminal.
     explicit Progress(bool shown = true);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// So many more steps are ahead.
+    /// Adds to the number of expected steps.
     void expect(std::size_t steps) { expected_ += steps; }
-    /// What is being done, and that a step of it is done. show() throws Interrupted after Ctrl-C.
+    /// Shows what is being done. Throws Interrupted after Ctrl-C.
     void show(const std::string& what);
+    /// Counts one step as done.
     void step();
-    /// Takes the line away, so that something else can be printed; the next show() puts it back.
+    /// Removes the line, so that other text can be printed; the next show() prints it again.
     void clear();
 
   private:
@@ -35,8 +36,8 @@ class Progress
     std::size_t expected_ = 0, done_ = 0;
 };
 
-/// The line without its terminal codes: "day 3   12 of 96   12 %   1:05 left". The time left is told once
-/// something is done.
+/// The line without terminal codes: "day 3   12 of 96   12 %   1:05 left". The time left appears once one
+/// step is done.
 std::string progress_text(const std::string& what, std::size_t done, std::size_t expected, double elapsed_s);
 
 } // namespace base

@@ -1,5 +1,5 @@
-// Float images read as a graphics device reads textures: bilinear with clamped edges, linear between mip
-// levels. Texture coordinates are 0..1 over the image; beyond them its edge goes on.
+// Samples float images like GPU textures: bilinear with clamp to edge, linear between mip levels. Texture
+// coordinates are 0..1 over the image.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@
 
 namespace base {
 
-/// The image and what is left of it at half the size each (rounded down, at least 1), down to 1 x 1, box
-/// filtered. Floats with any number of channels.
+/// The image and its box-filtered mip levels, each half the size (rounded down, at least 1) of the previous,
+/// down to 1 x 1. Floats with any number of channels.
 std::vector<cv::Mat> mip_levels(const cv::Mat& image);
 
-/// `image` holds `channels` floats a texel.
+/// `image` has `channels` floats per texel.
 template <int channels>
 cv::Vec<double, channels> sample(const cv::Mat& image, cv::Point2d uv)
 {
@@ -29,7 +29,7 @@ cv::Vec<double, channels> sample(const cv::Mat& image, cv::Point2d uv)
            fy * ((1 - fx) * Value(below[x0]) + fx * Value(below[x1]));
 }
 
-/// Between the levels of mip_levels(); `lod` 0 is the image itself, and beyond the last level that goes on.
+/// Interpolates between the levels of mip_levels(). `lod` 0 is the image itself; larger values are clamped.
 template <int channels>
 cv::Vec<double, channels> sample(const std::vector<cv::Mat>& levels, cv::Point2d uv, double lod)
 {

@@ -8,7 +8,7 @@ std::optional<Segment> clipped(const Segment& segment, const cv::Rect2d& rect)
 {
     double enter = 0, leave = 1;
     const cv::Point2d from = segment.from, along = segment.to - segment.from;
-    /// Keeps what of the segment satisfies step * t <= room.
+    // Clips the interval [enter, leave] to the t with step * t <= room.
     const auto keep = [&](double step, double room) {
         if (step < 0)
             enter = std::max(enter, room / step);

@@ -1,4 +1,4 @@
-// The part of a line segment that lies in a rectangle.
+// Clips a line segment to a rectangle.
 #pragma once
 #include <opencv2/core.hpp>
 #include <optional>
@@ -10,8 +10,8 @@ struct Segment
     cv::Point2d from, to;
 };
 
-/// Liang & Barsky 1984, "A new concept and method for line clipping". None when nothing of it lies inside; a
-/// segment of no length is a point. The rectangle's border counts as inside.
+/// Liang & Barsky 1984, "A new concept and method for line clipping". None when the segment lies outside. A
+/// segment of zero length is a point. The rectangle's border counts as inside.
 std::optional<Segment> clipped(const Segment& segment, const cv::Rect2d& rect);
 
 } // namespace base

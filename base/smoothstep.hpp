@@ -4,7 +4,7 @@
 
 namespace base {
 
-/// 0 at `low`, 1 at `high`, with level ends; `low` may be greater than `high`.
+/// 0 at `low`, 1 at `high`, with zero slope at both; `low` may be greater than `high`.
 inline double smoothstep(double low, double high, double x)
 {
     const double t = std::clamp((x - low) / (high - low), 0., 1.);

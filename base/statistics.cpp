@@ -10,7 +10,7 @@
 namespace base {
 namespace {
 
-/// The median of blocks of neighbours drawn until there are as many samples as before.
+/// The median of one bootstrap sample: random blocks of consecutive samples, as many as in `samples`.
 double resampled_median(std::span<const double> samples, std::size_t block, std::mt19937_64& random,
                         std::vector<double>& drawn)
 {
@@ -39,7 +39,7 @@ double normal_quantile(double p)
     return low;
 }
 
-/// Abramowitz & Stegun 1964, 26.7.5; good to a percent from three degrees of freedom on, as far as p = .99.
+/// Abramowitz & Stegun 1964, 26.7.5; accurate to 1 % for at least three degrees of freedom and p <= .99.
 double student_quantile(double p, double degrees)
 {
     const double z = normal_quantile(p), z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
@@ -89,8 +89,8 @@ RatioInterval ratio_of_medians(std::span<const double> a, std::span<const double
         sum += log_ratio;
         squares += log_ratio * log_ratio;
     }
-    // Few blocks tell little about their own spread: Student's t instead of the normal distribution. Blocks
-    // that are drawn do not show differences longer than themselves: n / (n - block).
+    // Student's t instead of the normal distribution, because few blocks estimate their own spread poorly.
+    // The factor n / (n - block) corrects for variation slower than a block, which the bootstrap misses.
     const double blocks = double(a.size()) / double(block_a) + double(b.size()) / double(block_b);
     const double n = double(std::min(a.size(), b.size())), longest = double(std::max(block_a, block_b));
     const double variance =

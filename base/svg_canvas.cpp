@@ -7,8 +7,8 @@
 namespace base {
 namespace {
 
-constexpr double capital_share = .73; // of a sans-serif font's size: a capital letter's height
-constexpr double least_side = .1;     // px; what is narrower is drawn as this
+constexpr double capital_share = .73; // height of a capital letter relative to a sans-serif font's size
+constexpr double least_side = .1;     // px, smallest drawn width or height of a rectangle
 
 double font_size(double height)
 {

@@ -1,4 +1,4 @@
-// Files being encoded in the background while the next picture is drawn.
+// Encodes and writes files in the background while the next picture is rendered.
 #pragma once
 #include <cstddef>
 #include <deque>
@@ -7,12 +7,12 @@
 
 namespace base {
 
-/// An error of any of them surfaces in finish() or push().
+/// push() and finish() rethrow the exceptions of the background work.
 class Writers
 {
   public:
-    /// `bytes` is what the work holds on to: beyond 256 MiB in all, or four files, push() waits for the
-    /// oldest, so that large pictures do not pile up.
+    /// Starts `work`, which holds `bytes` of memory. Waits for the oldest work while four files are
+    /// running or the total would exceed 256 MiB, to limit memory use.
     template <typename Work>
     void push(std::size_t bytes, Work work)
     {

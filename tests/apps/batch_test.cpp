@@ -190,7 +190,8 @@ TEST_F(Batch, BadTablesAreRefusedByLineAndColumn)
     EXPECT_THAT(refused("wounds.0.width_mm\n12\n900\n"),
                 testing::AllOf(HasSubstr("table.csv: line 3, column wounds.0.width_mm: is 900"),
                                HasSubstr("from 1 to 200")));
-    EXPECT_THAT(refused("wounds.0.widht\n3\n"), HasSubstr("line 2, column wounds.0.widht: is no field"));
+    EXPECT_THAT(refused("wounds.0.widht\n3\n"),
+                HasSubstr("line 2, column wounds.0.widht: is not a known field"));
     EXPECT_THAT(refused("wounds.2.seed\n3\n"), HasSubstr("column wounds.2.seed"));
     EXPECT_THAT(refused("size.x\n3\n"), HasSubstr("column size.x"));
     EXPECT_THAT(refused("a,b\n3\n"), HasSubstr("has 1 cells, the header 2"));

@@ -226,7 +226,7 @@ TEST(TissueFile, MistakesAreNamedWithFileAndField)
     EXPECT_THAT(message_of(R"({"unit":"1/mm","layers":[]})"), HasSubstr("t.json: /layers: is not a list"));
     EXPECT_THAT(message_of("[1]"), HasSubstr("t.json: : must be an object"));
     EXPECT_THAT(message_of(R"({"unit":"1/mm","colour":1,"layers":[)" + good_layer + "]}"),
-                HasSubstr("/colour: is no field that is known there"));
+                HasSubstr("/colour: is not a known field"));
     EXPECT_THAT(layer_with("0.8", "1.5"),
                 HasSubstr("t.json: /layers/0/g: is 1.5; give a number from -1 to 1"));
     EXPECT_THAT(layer_with("[1,2,3]", "[1,-2,3]"), HasSubstr("/layers/0/sigma_a: holds -2; give"));
