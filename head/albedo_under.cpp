@@ -13,8 +13,8 @@ namespace {
 
 constexpr double reach = Anchor::reach;
 
-/// A triangle over the patch's plane; `at` holds its corners in the anchor's frame.
-struct Over
+/// A triangle of skin; `at` holds its corners in the anchor's frame.
+struct PatchTriangle
 {
     std::array<const Vertex*, 3> corners;
     std::array<glm::dvec3, 3> at;
@@ -25,10 +25,10 @@ double cross_2d(const glm::dvec3& a, const glm::dvec3& b)
     return a.x * b.y - a.y * b.x;
 }
 
-/// Calls visit(row, column, height, weights) for every texel whose centre lies over the triangle, within
-/// reach.
+/// Calls visit(row, column, height, weights) for every texel whose centre projects into the triangle, if the
+/// triangle lies within reach there.
 template <typename Visit>
-void visit_texels(const Over& triangle, double area, int size, const Visit& visit)
+void visit_texels(const PatchTriangle& triangle, double area, int size, const Visit& visit)
 {
     const auto& q = triangle.at;
     const auto texel = [&](double t) { return (t + 1) * 0.5 * size - 0.5; };
@@ -38,7 +38,7 @@ void visit_texels(const Over& triangle, double area, int size, const Visit& visi
     const int y1 = std::min(size - 1, int(std::floor(texel(std::max({q[0].y, q[1].y, q[2].y})))));
     for (int y = y0; y <= y1; ++y)
         for (int x = x0; x <= x1; ++x) {
-            // A hair beside the centre: on a mesh as regular as the texels a centre would lie on two
+            // Slightly off the centre: on a regular mesh a centre could lie on the edge of two
             // triangles.
             const glm::dvec3 p((x + 0.5) * 2 / size - 1 + 1.3e-9, (y + 0.5) * 2 / size - 1 + 2.9e-9, 0);
             const double b = cross_2d(p - q[0], q[2] - q[0]) / area,
@@ -49,7 +49,7 @@ void visit_texels(const Over& triangle, double area, int size, const Visit& visi
         }
 }
 
-/// Calls visit(triangle, row, column, height, weights) for every texel centre and every layer of skin over it
+/// Calls visit(triangle, row, column, height, weights) for every texel centre and every skin triangle there
 /// that faces the patch's viewer.
 template <typename Visit>
 void visit_skin(const Model& head, std::uint32_t material, const Anchor& anchor, int size, const Visit& visit)
@@ -60,7 +60,7 @@ void visit_skin(const Model& head, std::uint32_t material, const Anchor& anchor,
         for (std::size_t i = primitive.first_index;
              i + 2 < std::size_t(primitive.first_index) + primitive.index_count; i += 3)
         {
-            Over triangle;
+            PatchTriangle triangle;
             std::array<glm::vec3, 3> corners;
             for (std::size_t k = 0; k < 3; ++k) {
                 triangle.corners[k] = &head.vertices[head.indices[i + k]];
@@ -70,7 +70,7 @@ void visit_skin(const Model& head, std::uint32_t material, const Anchor& anchor,
             if (!receives(anchor, corners))
                 continue;
             const double area = cross_2d(triangle.at[1] - triangle.at[0], triangle.at[2] - triangle.at[0]);
-            if (area < -1e-12) // v points down: what faces the patch turns clockwise in (u, v)
+            if (area < -1e-12) // v points down: triangles that face the viewer are clockwise in (u, v)
                 visit_texels(triangle, area, size,
                              [&](int y, int x, double height, const glm::dvec3& weights) {
                                  visit(triangle, y, x, height, weights);
@@ -98,12 +98,12 @@ cv::Vec3f linear_albedo(const Material& material, const glm::dvec2& uv)
 cv::Mat3f albedo_under(const Model& head, std::uint32_t material, const Anchor& anchor, int size)
 {
     cv::Mat3f skin(size, size, cv::Vec3f::all(std::numeric_limits<float>::quiet_NaN()));
-    cv::Mat1d nearest(size, size, -reach);
+    cv::Mat1d highest(size, size, -reach);
     visit_skin(head, material, anchor, size,
-               [&](const Over& triangle, int y, int x, double height, const glm::dvec3& weights) {
-                   if (height <= nearest(y, x))
+               [&](const PatchTriangle& triangle, int y, int x, double height, const glm::dvec3& weights) {
+                   if (height <= highest(y, x))
                        return;
-                   nearest(y, x) = height;
+                   highest(y, x) = height;
                    glm::dvec2 uv(0);
                    for (int k = 0; k < 3; ++k)
                        uv += weights[k] * glm::dvec2(triangle.corners[std::size_t(k)]->uv);
@@ -117,7 +117,7 @@ cv::Mat1f surface_under(const Model& head, std::uint32_t material, const Anchor&
     const double texel_mm = 2e3 * anchor.half_width_m / size;
     cv::Mat1f surface = cv::Mat1f::zeros(size, size);
     visit_skin(head, material, anchor, size,
-               [&](const Over& triangle, int y, int x, double height, const glm::dvec3& weights) {
+               [&](const PatchTriangle& triangle, int y, int x, double height, const glm::dvec3& weights) {
                    const auto& q = triangle.at;
                    const glm::dvec3 flat = glm::normalize(glm::cross(q[2] - q[0], q[1] - q[0]));
                    glm::dvec3 normal(0);
@@ -125,7 +125,7 @@ cv::Mat1f surface_under(const Model& head, std::uint32_t material, const Anchor&
                        normal += weights[k] * glm::dvec3(triangle.corners[std::size_t(k)]->normal);
                    const double cosine =
                        glm::dot(normal, anchor.normal) / std::max(glm::length(normal), 1e-9);
-                   // The area needs the triangle's own slope; what is received depends on the smooth normal.
+                   // The area depends on the triangle's slope, the received share on the smooth normal.
                    surface(y, x) += float(share_received(cosine, height) * texel_mm * texel_mm /
                                           std::max(std::abs(flat.z), 1e-3));
                });

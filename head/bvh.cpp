@@ -12,9 +12,9 @@
 namespace head {
 namespace {
 
-/// Embree's rays and boxes are single precision. A box is larger than its triangle by this share of the
-/// mesh's largest coordinate, and Embree's ray starts where it enters the mesh's bounds, however far away its
-/// origin is. So it strays by some 1e-6 of that coordinate at most, and no triangle is missed.
+/// Each triangle's box is padded by this share of the mesh's largest coordinate, because Embree's rays and
+/// boxes are single precision. Embree's ray starts where it enters the mesh's bounds, so its error is at most
+/// about 1e-6 of that coordinate for any distance of the origin, and no triangle is missed.
 constexpr double padding_share = 1e-5;
 
 struct Triangle
@@ -23,32 +23,32 @@ struct Triangle
     std::uint32_t first_index, primitive, material;
 };
 
-/// What Embree's functions are given to know of the triangles.
+/// The user data of Embree's callbacks.
 struct Mesh
 {
-    std::vector<Triangle> triangles;                                // in the order of the indices, all finite
+    std::vector<Triangle> triangles;                                // all finite, in index order
     double padding = 0;                                             // metres
     glm::dvec3 low{std::numeric_limits<double>::max()}, high{-low}; // bounds, padded
 };
 
-/// What a ray looks for and what it has found. Embree hands it back with each triangle.
+/// The parameters and the result of a ray query. Embree passes its address to the callbacks.
 struct Query
 {
-    RTCIntersectContext context; // first: Embree knows its address only
+    RTCIntersectContext context; // must be first: the callbacks cast its address to Query*
     glm::dvec3 origin, direction;
-    double tmin, tmax; // tmax: of what has been found
+    double tmin, tmax; // tmax shrinks to the nearest hit so far
     Facing facing;
     const HitFilter* accept;
     double metres_per_length = 1; // of the direction
-    double start = 0;             // of Embree's ray, metres from the origin
+    double start = 0;             // metres from the origin to the start of Embree's ray
     double padding = 0;           // metres
     bool found = false;
-    std::uint32_t order = 0; // in the mesh, of the triangle that was found
+    std::uint32_t order = 0; // index in Mesh::triangles of the hit triangle
     Hit hit;
 };
 
-/// Moeller & Trumbore 1997. Takes the triangle's hit if it is the best so far. Each triangle is 1e-9 wider
-/// than it is, so that neighbours overlap.
+/// Moeller & Trumbore 1997. Records the triangle's hit if it is the nearest so far. Barycentric coordinates
+/// may exceed their range by 1e-9, so that neighbouring triangles overlap.
 bool take(Query& query, const Triangle& triangle, std::uint32_t order)
 {
     const auto& corners = triangle.corners;
@@ -90,13 +90,14 @@ void on_nearest(const RTCIntersectFunctionNArguments* arguments)
         return;
     RTCRay& ray = reinterpret_cast<RTCRayHit*>(arguments->rayhit)->ray;
     const double hit = query.tmax * query.metres_per_length - query.start;
-    ray.tfar = std::min(ray.tfar, float(hit + query.padding)); // others that are as near are still looked at
+    // The padding makes Embree also test triangles that are equally near.
+    ray.tfar = std::min(ray.tfar, float(hit + query.padding));
 }
 
 void on_any(const RTCOccludedFunctionNArguments* arguments)
 {
     if (take_one(*reinterpret_cast<Query*>(arguments->context), *arguments))
-        reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity(); // the end
+        reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity(); // stop
 }
 
 glm::vec3 low_of(const Triangle& triangle)
@@ -174,8 +175,8 @@ void bounds_of(const RTCBoundsFunctionArguments* arguments)
 struct Bvh::Scene
 {
     explicit Scene(Mesh of);
-    /// Embree's ray for the query, and in the query what it is to know of that; none if it passes by the
-    /// mesh.
+    /// Makes Embree's ray for the query and sets the query's fields that depend on it; none if the ray misses
+    /// the mesh's bounds.
     std::optional<RTCRay> ray_for(Query& query) const;
 
     const Mesh mesh;
@@ -189,8 +190,8 @@ Bvh::Scene::Scene(Mesh of)
 {
     const auto check = [](bool good) {
         if (!good)
-            throw base::InputError("Embree, which finds what rays meet", "does not work on this machine",
-                                   "see that there is memory left");
+            throw base::InputError("Embree (ray tracing)", "failed to start on this machine",
+                                   "check that enough memory is free");
     };
     check(embree != nullptr);
     const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);

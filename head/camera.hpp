@@ -11,11 +11,11 @@ struct Camera
     bool operator==(const Camera&) const = default;
 };
 
-/// To the camera's own coordinates: x right, y up, z towards the viewer.
+/// World to camera coordinates: x right, y up, z towards the viewer.
 glm::dmat4 view_from_world(const Camera& camera);
 
-/// The direction, not of unit length, from the eye through a place of the picture: x from -1 (left) to 1, y
-/// from -1 (top) to 1.
+/// Direction, not normalised, from the eye through a point of the picture: x from -1 (left) to 1, y from -1
+/// (top) to 1. `aspect`: width / height.
 glm::dvec3 sight_through(const Camera& camera, double x, double y, double aspect);
 
 } // namespace head

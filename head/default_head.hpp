@@ -1,13 +1,13 @@
-// Where the default head lies once cicatrix-fetch-head has made it.
+// Path of the default head, which cicatrix-fetch-head creates.
 #pragma once
 #include <filesystem>
 
 namespace head {
 
-/// Goes up whenever the default head changes; part of its file's name.
+/// Part of the file name; increase it whenever the default head changes.
 constexpr int default_head_version = 2;
 
-/// head-vN.glb in base::cache_folder(). It need not be there.
+/// head-vN.glb in base::cache_folder(). The file may be missing.
 std::filesystem::path default_head_path();
 
 } // namespace head

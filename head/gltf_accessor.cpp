@@ -63,8 +63,8 @@ double component(const std::uint8_t* bytes, int type, bool normalized)
     }
 }
 
-/// `count` elements of `size` bytes, `stride` apart, from `offset` on, lie within `length` bytes. Cannot
-/// overflow.
+/// Whether `count` elements of `size` bytes, `stride` bytes apart, starting at `offset`, lie within `length`
+/// bytes. Cannot overflow.
 bool fits(std::size_t offset, std::size_t count, std::size_t stride, std::size_t size, std::size_t length)
 {
     if (count == 0)
@@ -116,8 +116,8 @@ std::size_t GltfReader::count(int accessor, std::string_view field) const
     return accessor_at(accessor, field).count;
 }
 
-/// Calls store(element, component, value) for the accessor's elements, then for those its sparse part
-/// replaces.
+/// Calls store(element, component, value) for the accessor's elements, then for the elements that its sparse
+/// part replaces.
 template <typename Store>
 void GltfReader::visit(const tinygltf::Accessor& accessor, std::string_view field, Store&& store) const
 {
@@ -170,7 +170,7 @@ std::vector<float> GltfReader::numbers(int accessor, int components, std::string
 {
     const tinygltf::Accessor& source = accessor_at(accessor, field);
     if (tinygltf::GetNumComponentsInType(source.type) != components || source.type > TINYGLTF_TYPE_VEC4)
-        refuse(field, fmt::format("accessor {} has not {} components", accessor, components));
+        refuse(field, fmt::format("accessor {} does not have {} components", accessor, components));
     std::vector<float> values(source.count * components, 0.0f);
     visit(source, field, [&](std::size_t element, std::size_t c, double value) {
         values[element * components + c] = static_cast<float>(value);
@@ -185,7 +185,7 @@ std::vector<std::uint32_t> GltfReader::indices(int accessor, std::size_t limit, 
                              source.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
                              source.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
     if (source.type != TINYGLTF_TYPE_SCALAR || !is_unsigned || source.normalized)
-        refuse(field, fmt::format("accessor {} holds no unsigned integers", accessor));
+        refuse(field, fmt::format("accessor {} does not hold unsigned integers", accessor));
     std::vector<std::uint32_t> values(source.count, 0);
     visit(source, field, [&](std::size_t element, std::size_t, double value) {
         values[element] = static_cast<std::uint32_t>(value);

@@ -1,4 +1,4 @@
-// Numbers out of a glTF file: every index, range, stride and type is checked before a byte is read.
+// Reads numbers from a glTF file; checks every index, range, stride and type before reading.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -12,11 +12,11 @@ namespace head {
 class GltfReader
 {
   public:
-    /// `file` names the file in errors. Both must outlive the reader.
+    /// `file` is the file's name in error messages. Both must outlive the reader.
     GltfReader(const tinygltf::Model& gltf, const std::string& file) : gltf_(gltf), file_(file) {}
 
-    /// count x components numbers, integers normalised where the accessor says so. `field` is the JSON path
-    /// that led here.
+    /// count x components numbers; integers are normalised if the accessor says so. `field`: the JSON path of
+    /// the reference to the accessor, for error messages.
     std::vector<float> numbers(int accessor, int components, std::string_view field) const;
     /// Unsigned integers, each below `limit`.
     std::vector<std::uint32_t> indices(int accessor, std::size_t limit, std::string_view field) const;
@@ -24,7 +24,7 @@ class GltfReader
     /// The bytes of a buffer view.
     std::span<const std::uint8_t> view(int buffer_view, std::string_view field) const;
 
-    /// How an error names a field: the file, then the field's path.
+    /// "FILE: FIELD" for error messages.
     std::string where(std::string_view field) const;
     [[noreturn]] void refuse(std::string_view field, std::string_view what,
                              std::string_view cure = "export the model again") const;

@@ -10,7 +10,7 @@
 namespace head {
 namespace {
 
-/// Decodes each picture once, however many textures use it.
+/// Decodes each picture once, even if several textures use it.
 class Pictures
 {
   public:
@@ -19,8 +19,8 @@ class Pictures
     {
     }
 
-    /// The picture of a texture in OpenCV's order; empty when there is none we read. A vertex has room for
-    /// one set of coordinates: that of the base colour, `uv_set`.
+    /// The picture of a texture in OpenCV's channel order; empty when missing, unsupported or not using
+    /// `uv_set`, the base colour's set: a vertex stores only one set of texture coordinates.
     cv::Mat of_texture(int texture, int texture_uv_set, int uv_set, const std::string& field);
 
   private:
@@ -37,14 +37,14 @@ cv::Mat Pictures::of_texture(int texture, int texture_uv_set, int uv_set, const 
     if (texture < 0)
         return {};
     if (texture_uv_set != uv_set) {
-        notes_.push_back(fmt::format("{}: uses texture coordinates of its own, left out", field));
+        notes_.push_back(fmt::format("{}: uses another set of texture coordinates, left out", field));
         return {};
     }
     if (static_cast<std::size_t>(texture) >= gltf_.textures.size())
         reader_.refuse(field, fmt::format("there is no texture {}", texture));
     const int image = gltf_.textures[texture].source;
-    if (image < 0) { // in a format that an extension brings, such as Basis
-        notes_.push_back(fmt::format("{}: its picture is in a format that is not read, left out", field));
+    if (image < 0) { // a format of an extension, such as Basis
+        notes_.push_back(fmt::format("{}: its picture has an unsupported format, left out", field));
         return {};
     }
     if (static_cast<std::size_t>(image) >= gltf_.images.size())
@@ -62,12 +62,12 @@ cv::Mat Pictures::decode(int image)
                                                     ? reader_.view(source.bufferView, field + "/bufferView")
                                                     : std::span(source.image);
     if (bytes.empty())
-        reader_.refuse(field, fmt::format("picture \"{}\" is not there", source.uri),
+        reader_.refuse(field, fmt::format("picture \"{}\" is missing", source.uri),
                        "put it beside the model, or use a .glb");
     return base::decode_picture(bytes, base::Channels::AsStored, reader_.where(field));
 }
 
-/// OpenCV's order and any number of channels to what a Material holds.
+/// Converts OpenCV's channel order and any number of channels to the format of a Material.
 cv::Mat convert(const cv::Mat& picture, cv::ColorConversionCodes from_gray, cv::ColorConversionCodes from_bgr,
                 cv::ColorConversionCodes from_bgra)
 {

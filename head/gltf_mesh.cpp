@@ -10,14 +10,14 @@ namespace head {
 namespace {
 
 constexpr std::size_t max_vertices = 10'000'000;
-constexpr float max_coordinate = 1e7f; // units: a head in nanometres is refused, not overflowed
+constexpr float max_coordinate = 1e7f; // model units; rejects e.g. nanometres before anything overflows
 
 bool finite(const glm::vec3& v)
 {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Finite numbers of the wanted count, or the default.
+/// Copies `from` to `to` after checking count and finiteness; leaves `to` unchanged when `from` is empty.
 void take(const std::vector<double>& from, std::span<double> to, const GltfReader& reader,
           const std::string& field)
 {
@@ -78,8 +78,8 @@ class Gatherer
     bool skinned_ = false, morphed_ = false, lines_ = false;
 };
 
-/// Walks the node tree without recursion; a node met twice means a cycle or two parents, both against the
-/// standard.
+/// Traverses the node tree without recursion. A node visited twice means a cycle or two parents; the standard
+/// forbids both.
 void Gatherer::add_scene()
 {
     struct Visit
@@ -88,7 +88,7 @@ void Gatherer::add_scene()
         glm::dmat4 parent;
     };
     std::vector<Visit> open;
-    if (gltf_.scenes.empty()) { // legal: a library of meshes
+    if (gltf_.scenes.empty()) { // valid glTF: a library of meshes
         for (std::size_t m = 0; m < gltf_.meshes.size(); ++m)
             add_mesh(static_cast<int>(m), glm::dmat4(1.0));
         return;
@@ -111,7 +111,7 @@ void Gatherer::add_scene()
         const tinygltf::Node& node = gltf_.nodes[visit.node];
         const glm::dmat4 transform = visit.parent * local_transform(node, reader_, field);
         if (node.mesh >= 0) {
-            // The standard has a skinned mesh ignore its node; without its joints it shows in its bind pose.
+            // By the standard, a skinned mesh ignores its node; without joints it keeps its bind pose.
             add_mesh(node.mesh, node.skin >= 0 ? glm::dmat4(1.0) : transform);
             skinned_ |= node.skin >= 0;
         }
@@ -160,7 +160,7 @@ std::vector<float> Gatherer::attribute(const tinygltf::Primitive& primitive, con
     return reader_.numbers(found->second, components, path);
 }
 
-/// The set of coordinates the base colour uses; a Vertex has room for one.
+/// The texture coordinate set that the base colour uses; a Vertex stores only one set.
 std::string Gatherer::uv_set(const tinygltf::Primitive& primitive) const
 {
     const int set = primitive.material < 0
@@ -169,7 +169,7 @@ std::string Gatherer::uv_set(const tinygltf::Primitive& primitive) const
     return fmt::format("TEXCOORD_{}", set);
 }
 
-/// KHR_texture_transform of the base colour, applied to the coordinates themselves.
+/// KHR_texture_transform of the base colour, to be applied to the vertices' texture coordinates.
 glm::dmat3 Gatherer::uv_transform(const tinygltf::Primitive& primitive) const
 {
     glm::dmat3 matrix(1.0);
@@ -202,7 +202,7 @@ std::size_t Gatherer::add_vertices(const tinygltf::Primitive& primitive, const g
         reader_.refuse(field + "/attributes/POSITION", "is missing");
     const std::size_t count = reader_.count(position_at->second, field + "/attributes/POSITION");
     if (count > max_vertices - mesh_.vertices.size())
-        reader_.refuse(field, fmt::format("brings the model above {} vertices", max_vertices),
+        reader_.refuse(field, fmt::format("raises the model's vertices above the limit of {}", max_vertices),
                        "use a smaller model");
     const auto positions = attribute(primitive, "POSITION", 3, count, field);
     const auto normals = attribute(primitive, "NORMAL", 3, count, field);
@@ -212,7 +212,7 @@ std::size_t Gatherer::add_vertices(const tinygltf::Primitive& primitive, const g
 
     const glm::dmat3 linear(transform), uv_matrix = uv_transform(primitive);
     const double sign = glm::determinant(linear) < 0 ? -1.0 : 1.0;
-    // The cofactor matrix turns normals and, unlike the inverse transpose, needs no division.
+    // The cofactor matrix transforms normals and, unlike the inverse transpose, needs no division.
     const glm::dmat3 cofactor(sign * glm::cross(linear[1], linear[2]),
                               sign * glm::cross(linear[2], linear[0]),
                               sign * glm::cross(linear[0], linear[1]));
@@ -223,11 +223,11 @@ std::size_t Gatherer::add_vertices(const tinygltf::Primitive& primitive, const g
         if (!finite(vertex.position) ||
             glm::any(glm::greaterThan(glm::abs(vertex.position), glm::vec3(max_coordinate))))
             reader_.refuse(field + "/attributes/POSITION",
-                           fmt::format("vertex {} is not finite or absurdly far away", i));
+                           fmt::format("vertex {} is not finite or too far away", i));
         if (!normals.empty()) {
             const glm::dvec3 normal = cofactor * glm::dvec3(glm::make_vec3(&normals[3 * i]));
             vertex.normal = glm::vec3(glm::normalize(normal));
-            known |= finite(vertex.normal) ? RawMesh::Normal : 0; // zero or NaN: computed like a missing one
+            known |= finite(vertex.normal) ? RawMesh::Normal : 0; // zero or NaN: treated as missing
         }
         if (!tangents.empty() && known) {
             const glm::dvec3 n = vertex.normal, along = linear * glm::dvec3(glm::make_vec3(&tangents[4 * i]));
@@ -261,10 +261,10 @@ void Gatherer::add_triangles(const tinygltf::Primitive& primitive, std::uint32_t
     const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES,
                fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
     if (list && corners.size() % 3 != 0)
-        reader_.refuse(field + "/indices", fmt::format("{} corners make no whole triangles", corners.size()));
+        reader_.refuse(field + "/indices", fmt::format("{} indices make no whole triangles", corners.size()));
     const std::size_t triangles = list ? corners.size() / 3 : corners.size() < 3 ? 0 : corners.size() - 2;
     if (triangles > max_vertices - mesh_.indices.size() / 3)
-        reader_.refuse(field, fmt::format("brings the model above {} triangles", max_vertices),
+        reader_.refuse(field, fmt::format("raises the model's triangles above the limit of {}", max_vertices),
                        "use a smaller model");
     const std::uint32_t material = primitive.material < 0 ? static_cast<std::uint32_t>(gltf_.materials.size())
                                                           : static_cast<std::uint32_t>(primitive.material);
@@ -273,7 +273,7 @@ void Gatherer::add_triangles(const tinygltf::Primitive& primitive, std::uint32_t
     for (std::size_t t = 0; t < triangles; ++t) {
         std::size_t a = list ? 3 * t : fan ? 0 : t, b = list ? a + 1 : t + 1, c = list ? a + 2 : t + 2;
         if (!list && !fan && t % 2 == 1)
-            std::swap(b, c); // every other triangle of a strip runs the other way
+            std::swap(b, c); // every second triangle of a strip has reversed winding
         if (mirrored)
             std::swap(b, c);
         for (std::size_t corner : {a, b, c})

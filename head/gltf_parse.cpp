@@ -14,8 +14,8 @@ namespace head {
 namespace {
 
 constexpr std::size_t max_file = std::size_t{1} << 30; // bytes
-constexpr int max_depth = 64;                          // of nested JSON: the parser recurses
-constexpr std::size_t max_objects = 200'000;           // of JSON: each may become half a kilobyte or more
+constexpr int max_depth = 64;                          // JSON nesting: the parser is recursive
+constexpr std::size_t max_objects = 200'000;           // JSON objects: each may take 0.5 kB of memory or more
 constexpr std::size_t max_values = 5'000'000;
 
 [[noreturn]] void refuse(const std::filesystem::path& path, std::string_view what,
@@ -24,7 +24,7 @@ constexpr std::size_t max_values = 5'000'000;
     throw base::InputError(path.string(), what, cure);
 }
 
-/// Keeps JSON made to exhaust stack or memory away from the parser.
+/// Rejects JSON that could exhaust the parser's stack or memory.
 void check_json_size(const std::filesystem::path& path, std::string_view json)
 {
     int depth = 0;
@@ -44,18 +44,18 @@ void check_json_size(const std::filesystem::path& path, std::string_view json)
         values += c == ',';
         depth += (c == '{' || c == '[') - (c == '}' || c == ']');
         if (depth > max_depth || objects > max_objects || values > max_values)
-            refuse(path, "its JSON is absurdly deep or long");
+            refuse(path, "its JSON is nested too deeply or too long");
     }
 }
 
-/// The JSON of a .glb, after checking the container's lengths (tinygltf 2.7 reads 8 bytes past a BIN chunk
-/// that is cut short).
+/// The JSON of a .glb. Checks the container's lengths, because tinygltf 2.7 reads 8 bytes past a truncated
+/// BIN chunk.
 std::string_view json_of_container(const std::filesystem::path& path, std::string_view bytes)
 {
     const auto word = [&](std::size_t at) {
         std::uint32_t value;
         std::memcpy(&value, bytes.data() + at,
-                    sizeof value); // little-endian, as are the machines we build on
+                    sizeof value); // little-endian, like all supported machines
         return std::size_t{value};
     };
     if (bytes.size() < 20)
@@ -74,7 +74,7 @@ std::string_view json_of_container(const std::filesystem::path& path, std::strin
     return bytes.substr(20, json_length);
 }
 
-/// What tinygltf's file callbacks need: the one folder that may be read from, and what went wrong there.
+/// User data of tinygltf's file callbacks: the only folder that may be read, and the first error.
 struct Folder
 {
     std::filesystem::path file, folder;
@@ -113,8 +113,8 @@ bool read_external_file(std::vector<unsigned char>* bytes, std::string*, const s
     }
 }
 
-/// Keeps the bytes of a picture outside the buffers. One in a buffer view is left where it is: its range is
-/// unchecked here.
+/// Stores the encoded bytes of an external picture. Skips a picture in a buffer view, because the view's
+/// range is not checked yet.
 bool keep_picture(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
                   const unsigned char* bytes, int size, void*)
 {
@@ -125,8 +125,8 @@ bool keep_picture(tinygltf::Image* image, const int, std::string*, std::string*,
 
 void check_extensions(const std::filesystem::path& path, const tinygltf::Model& gltf)
 {
-    // What a head needs of these is read (transforms, quantised numbers) or has no say in how we shade it
-    // (materials).
+    // Transforms and quantised numbers are supported; material extensions do not affect this renderer's
+    // shading.
     constexpr std::array known = {"KHR_texture_transform", "KHR_mesh_quantization"};
     for (const std::string& extension : gltf.extensionsRequired) {
         if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression")
@@ -135,7 +135,7 @@ void check_extensions(const std::filesystem::path& path, const tinygltf::Model& 
         const bool material =
             extension.starts_with("KHR_materials_") && extension != "KHR_materials_pbrSpecularGlossiness";
         if (!material && std::find(known.begin(), known.end(), extension) == known.end())
-            refuse(path, fmt::format("requires the glTF extension {}, which is not read", extension),
+            refuse(path, fmt::format("requires the glTF extension {}, which is not supported", extension),
                    "export the model without it");
     }
 }
@@ -172,9 +172,10 @@ tinygltf::Model parse_gltf(const std::filesystem::path& path)
     if (context.problem)
         throw *context.problem;
     if (!parsed || !errors.empty()) {
-        std::string reason = errors.empty() ? "not valid" : errors.substr(0, errors.find('\n'));
-        std::erase_if(reason, [](unsigned char c) { return c < 0x20 || c >= 0x7f; }); // may quote the file
-        refuse(path, fmt::format("is not a sound glTF file ({})", reason.substr(0, 200)));
+        std::string reason = errors.empty() ? "unknown error" : errors.substr(0, errors.find('\n'));
+        // The error may quote bytes of the file.
+        std::erase_if(reason, [](unsigned char c) { return c < 0x20 || c >= 0x7f; });
+        refuse(path, fmt::format("is not a valid glTF file ({})", reason.substr(0, 200)));
     }
     if (!gltf.asset.version.starts_with("2"))
         refuse(path, fmt::format("/asset/version is \"{}\"", gltf.asset.version.substr(0, 16)));

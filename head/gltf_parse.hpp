@@ -1,13 +1,12 @@
-// From a file's bytes to a parsed glTF document whose buffers are loaded: the first of load_model's two
-// steps.
+// Parses a glTF file and loads its buffers: the first step of load_model.
 #pragma once
 #include <filesystem>
 #include <tiny_gltf.h>
 
 namespace head {
 
-/// Parses .glb or .gltf. Pictures are not decoded: an image that is not in a buffer view has its file's bytes
-/// in `image`. Other files are read only from the folder the file lies in. Throws base::InputError.
+/// Parses .glb or .gltf. Does not decode pictures: `image` of an image outside the buffer views holds the
+/// encoded bytes. Reads other files only from the folder of `path`. Throws base::InputError.
 tinygltf::Model parse_gltf(const std::filesystem::path& path);
 
 } // namespace head

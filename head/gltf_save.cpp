@@ -11,8 +11,7 @@
 namespace head {
 namespace {
 
-// A large opaque colour picture as JPEG takes a sixth of the room of a PNG, and a quarter of the time to
-// read.
+// JPEG of a large opaque colour picture takes a sixth of the space and a quarter of the reading time of PNG.
 constexpr std::size_t lossless_limit = 1u << 20; // px
 constexpr int jpeg_quality = 95;
 
@@ -46,7 +45,7 @@ int Writer::add_view(const void* bytes, std::size_t size, int target)
     view.target = target;
     const auto* first = static_cast<const unsigned char*>(bytes);
     data.insert(data.end(), first, first + size);
-    data.resize((data.size() + 3) / 4 * 4); // accessors start at multiples of four
+    data.resize((data.size() + 3) / 4 * 4); // accessors must start at multiples of four bytes
     gltf_.bufferViews.push_back(view);
     return static_cast<int>(gltf_.bufferViews.size() - 1);
 }
@@ -96,7 +95,7 @@ void Writer::add_material(const Material& material)
     out.name = material.name;
     cv::Mat picture;
     if (!material.base_color.empty()) {
-        const bool opaque = material.alpha == AlphaMode::Opaque; // then the fourth channel says nothing
+        const bool opaque = material.alpha == AlphaMode::Opaque; // the alpha channel is then unused
         cv::cvtColor(material.base_color, picture, opaque ? cv::COLOR_RGBA2BGR : cv::COLOR_RGBA2BGRA);
         out.pbrMetallicRoughness.baseColorTexture.index = add_texture(picture, opaque);
     }
@@ -127,7 +126,7 @@ tinygltf::Model Writer::document()
         {"TEXCOORD_0", add_attribute(&Vertex::uv, TINYGLTF_TYPE_VEC2)},
     };
     auto& positions =
-        gltf_.accessors[attributes.at("POSITION")]; // the standard wants the bounds of positions
+        gltf_.accessors[attributes.at("POSITION")]; // the standard requires min and max of positions
     positions.minValues = {model_.min.x, model_.min.y, model_.min.z};
     positions.maxValues = {model_.max.x, model_.max.y, model_.max.z};
 
@@ -167,7 +166,7 @@ void save_model(const std::filesystem::path& path, const Model& model)
         stream.close();
         if (!written || !stream)
             throw base::InputError(path.string(), "cannot be written",
-                                   "choose a folder with room that can be written to");
+                                   "choose a writable folder with free space");
     });
 }
 

@@ -1,4 +1,4 @@
-// What a head's materials stand for.
+// Classifies a head's materials.
 #pragma once
 #include <cstdint>
 
@@ -9,7 +9,7 @@ namespace head {
 enum class Surface : std::uint8_t
 {
     Skin, // the material that covers most of the head; takes wounds and translucency
-    Eye,  // smooth and wet: a narrow highlight
+    Eye,  // smooth and wet: narrow highlight
     Hair, // brows and lashes: blended, no highlight, no shadow
     Other // mouth, clothes: no highlight
 };
@@ -17,7 +17,7 @@ enum class Surface : std::uint8_t
 /// The material that covers the largest area: the skin.
 std::uint32_t skin_material(const Model& model);
 
-/// Told by the material's name; `skin` is skin_material().
+/// Decides by the material's name; `skin` is skin_material().
 Surface surface_of(const Model& model, std::uint32_t material, std::uint32_t skin);
 
 } // namespace head

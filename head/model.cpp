@@ -20,7 +20,7 @@ void complete(RawMesh& mesh, std::vector<std::string>& notes)
         notes.push_back("no tangents, or unusable ones: computed");
 }
 
-/// Triangles by material, one primitive each, in the order of `materials`.
+/// Reorders the triangles into one primitive per material, in the order of `materials`.
 void group_by_material(RawMesh& mesh, const std::vector<std::uint32_t>& materials)
 {
     std::vector<std::uint32_t> indices;
@@ -50,7 +50,7 @@ Model load_model(const std::filesystem::path& path)
     if (const std::size_t dropped = drop_degenerate(mesh))
         model.notes.push_back(fmt::format("{} triangles without area: left out", dropped));
     if (mesh.indices.empty())
-        throw base::InputError(file, "holds no triangles with an area", "export the head's mesh into it");
+        throw base::InputError(file, "contains no triangles with an area", "export the head's mesh into it");
     complete(mesh, model.notes);
 
     std::vector<std::uint32_t> used; // materials, in the order of their first use
@@ -85,7 +85,7 @@ void normalise_size(Model& model)
 {
     constexpr float smallest = 0.1f, greatest = 1.0f, wanted = 0.25f; // metres
     const glm::vec3 extent = model.max - model.min;
-    // A flat model lying down has no height; its longest side stands in.
+    // For a horizontal flat model, which has no height, use its longest side.
     const float height = extent.y > 0 ? extent.y : std::max(extent.x, extent.z);
     if (height >= smallest && height <= greatest)
         return;

@@ -1,5 +1,5 @@
-// A head as the renderer needs it: one vertex and index list, primitives by material, pictures on the CPU.
-// Loaded from glTF 2.0 (.glb or .gltf), checked at the door, trusted after.
+// A head model: one vertex and index list, one primitive per material, pictures on the CPU. Loaded from glTF
+// 2.0 (.glb or .gltf); load_model checks everything, so that later code need not.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -54,26 +54,25 @@ struct Model
     std::vector<Material> materials; // at least one
     glm::vec3 min{0.0f}, max{0.0f};  // bounds of the vertices
     std::vector<std::string>
-        notes; // what was missing and made up ("no normals: computed"), for the user to read
+        notes; // for the user: data that was missing and replaced ("no normals: computed")
 };
 
-/// Throws base::InputError naming the file, the field and the cure. Node transforms are applied; normals
-/// and tangents are computed where missing; zero-area triangles are dropped; NaN, out-of-range indices and
-/// absurd sizes are refused.
+/// Applies node transforms, computes missing normals and tangents and drops zero-area triangles. Throws
+/// base::InputError, naming file, field and cure, for NaN, out-of-range indices, excessive sizes and other
+/// errors.
 Model load_model(const std::filesystem::path& path);
 
-/// The three corners of the triangle whose first index is at `first`.
+/// The corners of the triangle whose first index is model.indices[first].
 std::array<glm::vec3, 3> corners_of(const Model& model, std::size_t first);
 
-/// Sets min and max from the vertices, of which there must be one.
+/// Sets min and max from the vertices; there must be at least one.
 void update_bounds(Model& model);
 
-/// Makes the model a head in metres: scales one whose height is outside 0.1..1 m to 0.25 m and says so in
-/// `notes`.
+/// Scales a model whose height is outside 0.1..1 m to a height of 0.25 m and adds this to `notes`.
 void normalise_size(Model& model);
 
-/// Writes a binary glTF 2.0 file that load_model reads back; PNG pictures inside, opaque colours of more than
-/// a megapixel as JPEG. Atomic (temporary name, then rename).
+/// Writes a binary glTF 2.0 file that load_model can read. Pictures are PNG; opaque base colours of more than
+/// a megapixel are JPEG. Atomic (temporary name, then rename).
 void save_model(const std::filesystem::path& path, const Model& model);
 
 } // namespace head

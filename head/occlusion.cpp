@@ -7,14 +7,14 @@
 namespace head {
 namespace {
 
-constexpr float start_offset = 3e-4f; // metres along the normal: clear of the vertex's own triangles
+constexpr float start_offset = 3e-4f; // metres along the normal, to avoid hitting the vertex's own triangles
 
 } // namespace
 
 std::vector<float> ambient_occlusion(const Bvh& bvh, std::span<const glm::vec3> positions,
                                      std::span<const glm::vec3> normals, int rays, float reach)
 {
-    // A Fibonacci spiral on the unit disc, lifted to the hemisphere: density proportional to the cosine
+    // A Fibonacci spiral on the unit disc, projected to the hemisphere: density proportional to the cosine
     // (Malley's method).
     std::vector<glm::vec3> directions;
     for (int i = 0; i < rays; ++i) {

@@ -1,4 +1,4 @@
-// Ambient occlusion of a still mesh: what share of the sky each vertex sees.
+// Ambient occlusion of a static mesh, by ray casting.
 #pragma once
 #include <glm/glm.hpp>
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace head {
 
-/// Per point, the cosine-weighted share of its hemisphere that is open up to `reach`: 0 enclosed .. 1 open.
-/// The same `rays` stratified directions everywhere, turned by a different angle at each point;
-/// deterministic.
+/// For each point the cosine-weighted share of its hemisphere without hits up to a distance of `reach`: 0
+/// enclosed .. 1 open. Uses the same `rays` stratified directions at every point, rotated about the normal by
+/// a different angle. Deterministic.
 std::vector<float> ambient_occlusion(const Bvh& bvh, std::span<const glm::vec3> positions,
                                      std::span<const glm::vec3> normals, int rays, float reach);
 

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double reach = Anchor::reach;
 
-/// Mean of the vertex normals within `radius`, weighted by a smooth bump; those that face away from the
-/// nearest are left out.
+/// Weighted mean of the vertex normals within `radius`, without those that face away from the normal of the
+/// nearest vertex. The weight (1 - t^2)^2 falls to 0 at `radius`.
 glm::dvec3 mean_normal(const Model& head, const glm::dvec3& centre, double radius)
 {
     double nearest = std::numeric_limits<double>::max();
@@ -32,8 +32,8 @@ glm::dvec3 mean_normal(const Model& head, const glm::dvec3& centre, double radiu
     return glm::length(sum) > 1e-9 ? glm::normalize(sum) : direction;
 }
 
-/// The face coordinates and the normal of an anchor whose centre and size are known.
-void lay_on_skin(Anchor& anchor, const Model& head, const FaceFrame& face)
+/// Sets the face coordinates and the normal of an anchor from its centre and size.
+void set_face_and_normal(Anchor& anchor, const Model& head, const FaceFrame& face)
 {
     anchor.face = {(anchor.centre.x - face.nose_tip.x) / face.unit_m,
                    (anchor.centre.y - face.nose_tip.y) / face.unit_m};
@@ -44,7 +44,7 @@ void lay_on_skin(Anchor& anchor, const Model& head, const FaceFrame& face)
 
 FaceFrame find_face(const Model& head)
 {
-    // The tip of the nose is what reaches furthest forward in the upper two thirds; below may be a chest.
+    // The tip of the nose is the frontmost vertex of the upper 65 %; a chest may be below.
     const float lowest = head.min.y + 0.35f * (head.max.y - head.min.y);
     FaceFrame face;
     face.nose_tip = glm::dvec3(0, 0, std::numeric_limits<double>::lowest());
@@ -88,19 +88,19 @@ Anchor anchor_wound(const Model& head, const Bvh& solid, const FaceFrame& face, 
     } else {
         const std::optional<FacePoint> known = known_face_point(place);
         if (!known)
-            throw base::InputError(where, "\"" + std::get<std::string>(place) + "\" is no known place",
+            throw base::InputError(where, "\"" + std::get<std::string>(place) + "\" is not a known place",
                                    "use cheek, eyebrow, chin, forehead, nose, or coordinates");
         const FacePoint at = *known;
         const glm::dvec3 eye(face.nose_tip.x + at.x * face.unit_m, face.nose_tip.y + at.y * face.unit_m,
                              double(head.max.z) + 1.0);
-        const auto seen = first_on_ray(solid, eye, {0, 0, -1}); // what a viewer in front of the face sees
+        const auto seen = first_on_ray(solid, eye, {0, 0, -1}); // the skin that a viewer in front sees
         if (!seen)
             throw base::InputError(where,
                                    fmt::format("face coordinates [{:g}, {:g}] miss the head", at.x, at.y),
                                    "stay within about -0.5 to 0.5 across and -0.7 to 0.9 up");
         anchor.centre = seen->at;
     }
-    lay_on_skin(anchor, head, face);
+    set_face_and_normal(anchor, head, face);
     const glm::dvec3 up = std::abs(anchor.normal.y) > 0.95 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
     const glm::dvec3 level = glm::normalize(glm::cross(up, anchor.normal)); // towards the viewer's right
     const glm::dvec3 below = glm::cross(level, anchor.normal);              // and down the face
@@ -113,7 +113,7 @@ Anchor anchor_wound(const Model& head, const Bvh& solid, const FaceFrame& face, 
 Anchor anchor_beside(const Model& head, const Bvh& solid, const FaceFrame& face, const Anchor& first,
                      const glm::dvec2& offset_m, double patch_width_mm, const std::string& where)
 {
-    // From a little above the first one's plane: from further away another part of the head may come between.
+    // Starts close above the first patch's plane, so that no other part of the head blocks the ray.
     const double distance = glm::length(offset_m), above = std::max(distance, first.half_width_m);
     const glm::dvec3 origin =
         first.centre + offset_m.x * first.right + offset_m.y * first.down + above * first.normal;
@@ -121,12 +121,12 @@ Anchor anchor_beside(const Model& head, const Bvh& solid, const FaceFrame& face,
     if (!found || glm::distance(found->at, origin) > 2.5 * above)
         throw base::InputError(
             where,
-            fmt::format("lies {:.0f} mm beside the largest one, where there is no skin", distance * 1e3),
+            fmt::format("lies {:.0f} mm from the largest wound, where there is no skin", distance * 1e3),
             "give a smaller width_mm, another roll_deg or a place further from the head's edge");
     Anchor anchor;
     anchor.half_width_m = patch_width_mm * 0.5e-3;
     anchor.centre = found->at;
-    lay_on_skin(anchor, head, face);
+    set_face_and_normal(anchor, head, face);
     anchor.down = glm::normalize(glm::cross(first.right, anchor.normal));
     anchor.right = glm::cross(anchor.normal, anchor.down);
     return anchor;

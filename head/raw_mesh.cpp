@@ -9,7 +9,7 @@
 namespace head {
 namespace {
 
-/// Bit patterns as a map's key: vertices are joined only where they are exactly equal.
+/// A map key of bit patterns: only exactly equal vertices are joined.
 template <std::size_t N>
 struct Key
 {
@@ -32,7 +32,7 @@ std::uint32_t bits_of(float value)
     return std::bit_cast<std::uint32_t>(value + 0.0f);
 } // -0 becomes +0
 
-/// Numbers every vertex by its class of equal keys.
+/// Assigns the same number to all vertices with equal keys.
 template <std::size_t N, typename KeyOf>
 std::vector<std::uint32_t> weld(std::size_t vertex_count, KeyOf&& key_of)
 {
@@ -91,7 +91,7 @@ Triangle triangle_at(const RawMesh& mesh, std::size_t first)
     return triangle;
 }
 
-/// The direction in which u grows, and whether the chart is mirrored.
+/// The direction of increasing u, and whether the texture chart is mirrored.
 struct ChartFrame
 {
     glm::dvec3 along_u{0.0};
@@ -103,8 +103,7 @@ ChartFrame chart_frame(const RawMesh& mesh, const Triangle& t)
     const glm::dvec2 uv0 = mesh.vertices[t.v[0]].uv;
     const glm::dvec2 d1 = glm::dvec2(mesh.vertices[t.v[1]].uv) - uv0,
                      d2 = glm::dvec2(mesh.vertices[t.v[2]].uv) - uv0;
-    // v runs down in glTF and the bitangent is its reverse (up), as in an ordinary right-handed frame: hence
-    // the minus.
+    // The minus: v points down in glTF, but the bitangent points up, as in a right-handed frame.
     const double area = -(d1.x * d2.y - d1.y * d2.x);
     const glm::dvec3 along = ((t.p[1] - t.p[0]) * -d2.y + (t.p[2] - t.p[0]) * d1.y) * (area < 0 ? -1.0 : 1.0);
     const double length = glm::length(along);
@@ -126,7 +125,7 @@ std::size_t drop_degenerate(RawMesh& mesh)
             const glm::dvec3 a = t.p[1] - t.p[0], b = t.p[2] - t.p[0];
             const double longest = std::max(glm::dot(a, a), glm::dot(b, b));
             if (!(glm::length(glm::cross(a, b)) > 1e-9 * longest))
-            { // relative: the size of the model does not matter
+            { // relative, so that the size of the model does not matter
                 ++dropped;
                 continue;
             }
@@ -172,7 +171,7 @@ bool complete_uvs(RawMesh& mesh)
         mesh.vertices[v].uv = {0.5f + angle / glm::two_pi<float>(),
                                (high.y - mesh.vertices[v].position.y) / height};
     }
-    std::unordered_map<std::uint32_t, std::uint32_t> past_seam; // vertex -> its double with u + 1
+    std::unordered_map<std::uint32_t, std::uint32_t> past_seam; // vertex -> its copy with u + 1
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         float greatest = 0;
         for (int c = 0; c < 3; ++c)
@@ -214,7 +213,7 @@ bool complete_normals(RawMesh& mesh)
             continue;
         const glm::dvec3 normal = sum[place[v]];
         const double length = glm::length(normal);
-        // Two sheets back to back cancel; any direction will do there.
+        // Normals of two sheets back to back cancel; any direction is acceptable there.
         mesh.vertices[v].normal = length > 1e-12 ? glm::vec3(normal / length) : glm::vec3(0, 0, 1);
         mesh.known[v] |= RawMesh::Normal;
     }
@@ -225,10 +224,10 @@ bool complete_tangents(RawMesh& mesh)
 {
     if (!any_unknown(mesh, RawMesh::Tangent))
         return false;
-    // Double the vertices where mirrored and unmirrored charts meet: one vertex, one handedness.
+    // Duplicate vertices shared by mirrored and unmirrored charts, because a vertex has one handedness.
     std::vector<ChartFrame> frames(mesh.indices.size() / 3);
-    std::vector<std::uint8_t> handed(mesh.vertices.size(), 0); // 0 not yet, 1 unmirrored, 2 mirrored
-    std::unordered_map<std::uint32_t, std::uint32_t> mirror_double;
+    std::vector<std::uint8_t> handed(mesh.vertices.size(), 0); // 0 unknown, 1 unmirrored, 2 mirrored
+    std::unordered_map<std::uint32_t, std::uint32_t> mirror_copy;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         frames[i / 3] = chart_frame(mesh, triangle_at(mesh, i));
         if (frames[i / 3].along_u == glm::dvec3(0.0))
@@ -242,7 +241,7 @@ bool complete_tangents(RawMesh& mesh)
                 handed[index] = hand;
             if (handed[index] == hand)
                 continue;
-            const auto [found, is_new] = mirror_double.try_emplace(index, 0);
+            const auto [found, is_new] = mirror_copy.try_emplace(index, 0);
             if (is_new) {
                 found->second = duplicate(mesh, index);
                 handed.push_back(hand);

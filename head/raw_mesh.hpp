@@ -1,5 +1,5 @@
-// A mesh on its way from a file to a Model: what is known of each vertex, and the steps that fill in what is
-// not.
+// A mesh as read from a file, with vertex data that may be missing, and functions that compute the missing
+// data.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -18,26 +18,26 @@ struct RawMesh
         Uv = 4
     };
     std::vector<Vertex> vertices;
-    std::vector<std::uint8_t> known; // per vertex, bits of Known
+    std::vector<std::uint8_t> known; // per vertex: bits of Known
     std::vector<std::uint32_t> indices;
     std::vector<Primitive> primitives; // consecutive in `indices`
 };
 
-/// Drops triangles without area and vertices that no triangle uses. Returns how many triangles went.
+/// Drops zero-area triangles and unused vertices. Returns the number of dropped triangles.
 std::size_t drop_degenerate(RawMesh& mesh);
 
-/// Projects onto a cylinder about the vertical axis where no texture coordinates are known; u runs on past 1
-/// over the seam at the back. Returns whether anything was missing.
+/// Computes missing texture coordinates by projection onto a cylinder about the vertical axis; u exceeds 1
+/// across the seam at the back. Returns whether any were missing.
 bool complete_uvs(RawMesh& mesh);
 
-/// Angle-weighted vertex normals where none are known. Vertices at the same place share them, so that texture
-/// seams do not show. Returns whether anything was missing.
+/// Computes missing vertex normals, weighted by angle. Vertices at the same position get the same normal, so
+/// that texture seams are invisible. Returns whether any were missing.
 bool complete_normals(RawMesh& mesh);
 
-/// Tangents along u where none are known, in the manner of MikkTSpace (Mikkelsen 2008): angle-weighted over
-/// vertices of equal place, normal and uv, apart for mirrored and unmirrored charts (such vertices are
-/// doubled), orthogonal to the normal. Where the uvs span no area the tangent is horizontal. Returns whether
-/// anything was missing.
+/// Computes missing tangents along u as in MikkTSpace (Mikkelsen 2008): angle-weighted over vertices of equal
+/// position, normal and uv, separately for mirrored and unmirrored charts (shared vertices are duplicated),
+/// orthogonal to the normal. Where the uvs span no area the tangent is horizontal. Returns whether any were
+/// missing.
 bool complete_tangents(RawMesh& mesh);
 
 } // namespace head

@@ -6,7 +6,7 @@
 namespace head {
 namespace {
 
-/// Ericson 2004, Real-Time Collision Detection, 5.1.5: by the region of the triangle that the point is in.
+/// Ericson 2004, Real-Time Collision Detection, 5.1.5: by the Voronoi region of the triangle that holds p.
 glm::dvec3 nearest_in_triangle(const std::array<glm::vec3, 3>& t, const glm::dvec3& p)
 {
     const glm::dvec3 a(t[0]), b(t[1]), c(t[2]), ab = b - a, ac = c - a;

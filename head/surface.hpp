@@ -1,4 +1,4 @@
-// Points on a head's surface: what a ray meets, what lies nearest.
+// Points on a head's surface: the first hit of a ray and the point nearest to another.
 #pragma once
 #include <glm/glm.hpp>
 #include <optional>
@@ -14,12 +14,12 @@ struct SurfacePoint
     std::uint32_t material = 0;
 };
 
-/// The first front face on a ray. `solid`: the hierarchy of the head's solid triangles, so that hair and
-/// lashes are looked through. `direction`: of any length.
+/// The first front-facing hit of a ray. `solid`: the hierarchy of the head's solid triangles, so that rays
+/// pass through hair and lashes. `direction`: of any length.
 std::optional<SurfacePoint> first_on_ray(const Bvh& solid, const glm::dvec3& origin,
                                          const glm::dvec3& direction);
 
-/// The point of the surface nearest to `point`, hair left out.
+/// The point of the surface nearest to `point`, ignoring hair.
 SurfacePoint nearest_on_surface(const Model& head, const glm::dvec3& point);
 
 } // namespace head

@@ -99,8 +99,8 @@ TEST_F(HostileModel, MissingEmptyAndForeignFilesAreRefused)
     EXPECT_THROW(head::load_model(folder_.path()), base::InputError);
     EXPECT_REFUSED(refusal(""), "empty");
     EXPECT_REFUSED(refusal("solid cube\nfacet normal"), "not a glTF file");
-    EXPECT_REFUSED(refusal("{\"asset\":", "head.gltf"), "not a sound glTF file");
-    EXPECT_REFUSED(refusal("[{}]", "head.gltf"), "not a sound glTF file");
+    EXPECT_REFUSED(refusal("{\"asset\":", "head.gltf"), "not a valid glTF file");
+    EXPECT_REFUSED(refusal("[{}]", "head.gltf"), "not a valid glTF file");
     EXPECT_REFUSED(refusal(R"({"asset":{"version":"1.0"}})", "head.gltf"), "version");
     EXPECT_REFUSED(refusal(R"({"asset":{"version":"2.0"}})", "head.gltf"), "no triangles");
 }
@@ -254,11 +254,11 @@ TEST_F(HostileModel, JsonBombsAreRefusedQuickly)
 {
     const std::string head = R"({"asset":{"version":"2.0"},"extras":)";
     EXPECT_REFUSED(refusal(head + std::string(300'000, '[') + std::string(300'000, ']') + "}", "head.gltf"),
-                   "absurdly");
+                   "too deeply");
     std::string many = head + "[{}";
     for (int i = 0; i < 400'000; ++i)
         many += ",{}";
-    EXPECT_REFUSED(refusal(many + "]}", "head.gltf"), "absurdly");
+    EXPECT_REFUSED(refusal(many + "]}", "head.gltf"), "too deeply");
 }
 
 } // namespace
