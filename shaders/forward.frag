@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// The head: albedo and normal map, wounds projected in object space with the blend of eq. (4), the shading of eq. (8) of
-// Choi & Chin 2014. What a specialisation constant switches off is not compiled in.
+// Shades the head: albedo and normal map, wounds projected in object space and blended by eq. (4), shading by
+// eq. (8) of Choi & Chin 2014. A term that a specialisation constant turns off is not compiled.
 #include "lib/frame.glsl"
 #include "lib/color.glsl"
 #include "lib/shading.glsl"
@@ -10,13 +10,13 @@
 #include "lib/wound_projection.glsl"
 #include "shared/part.h"
 
-layout(constant_id = 0) const uint WOUNDS = 0; // how many are projected
+layout(constant_id = 0) const uint WOUNDS = 0; // number of projected wounds
 layout(constant_id = 1) const bool LAMBERT = true;
 layout(constant_id = 2) const bool TRANSLUCENCY = true;
 layout(constant_id = 3) const bool WARD = true;
 layout(constant_id = 4) const bool NORMAL_MAP = true;
 layout(constant_id = 5) const bool SHADOW = true;
-layout(constant_id = 6) const bool AMBIENT = true; // ambient light, dimmed by occlusion
+layout(constant_id = 6) const bool AMBIENT = true; // ambient light times occlusion
 layout(constant_id = 7) const uint WARD_MODEL = WARD_BOUNDED;
 layout(constant_id = 8) const uint TRANSLUCENCY_MODEL = TRANSLUCENCY_BOUNDED;
 layout(constant_id = 9) const uint BLEND_MODEL = BLEND_CORRECTED;
@@ -64,16 +64,18 @@ void main()
     }
     if (AMBIENT)
         skin.occlusion = texture(occlusion_map, v_uv).r;
-    // Written out, for an array of samplers indexed by a loop's counter costs a software rasteriser ten times as much.
+    // Unrolled by hand: indexing an array of samplers by a loop counter is ten times slower on a software
+    // rasteriser.
     ADD_WOUND(0) ADD_WOUND(1) ADD_WOUND(2) ADD_WOUND(3) ADD_WOUND(4) ADD_WOUND(5) ADD_WOUND(6)
 
     frame = frame_of(bend_to_viewer(skin.normal, to_viewer), v_tangent);
     ShadingParams params = shading;
-    // A wet bed mirrors in a narrower lobe: small specular_highlights rather than a sheen. Taut new epithelium a little so.
+    // A wet bed has a narrower lobe: small highlights rather than a sheen. Taut new epithelium: slightly
+    // narrower.
     params.slope *= part.slope * (1 - 0.4 * skin.wetness) * (1 - 0.25 * skin.tautness);
     params.rho_s *= part.specular * (1 - 0.4 * skin.wetness + 0.15 * skin.tautness);
     const vec3 local_viewer = to_viewer * frame;
-    vec3 diffuse = AMBIENT ? params.ambient * skin.occlusion : vec3(0); // still to be coloured by C
+    vec3 diffuse = AMBIENT ? params.ambient * skin.occlusion : vec3(0); // multiplied by the albedo C below
     vec3 mirrored = vec3(0);
     for (uint i = 0; i < LIGHTS; ++i)
     {
@@ -86,7 +88,7 @@ void main()
         if (WARD)
             mirrored += specular(WARD_MODEL, params, light, local_light, local_viewer);
     }
-    // The hollows the paper lets glow are dimmed as they are for ambient light, but not in its own model.
+    // Translucency is multiplied by ambient occlusion, except in the published model.
     if (TRANSLUCENCY)
         diffuse += v_subsurface * part.translucency * (TRANSLUCENCY_MODEL == TRANSLUCENCY_PUBLISHED ? 1 : skin.occlusion);
     const vec3 radiance = diffuse * skin.albedo + mirrored * skin.occlusion;

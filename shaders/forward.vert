@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// The head's vertices. What is smooth over the surface is computed here: the translucent light of eq. (6) and where the
-// point lies in the key light's shadow map.
+// The head's vertices. Computes the quantities that vary smoothly over the surface: the translucent light of
+// eq. (6) and the position in the key light's shadow map.
 #include "lib/shading.glsl"
 #include "lib/shadow.glsl"
 #include "shared/frame.h"

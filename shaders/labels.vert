@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// The head's vertices for its labels.
+// The head's vertices for the label pass.
 #include "shared/frame.h"
 
 layout(scalar, binding = 0) uniform View_ { View view; };

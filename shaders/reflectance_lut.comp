@@ -1,4 +1,5 @@
-// One texel of the reflectance table: the colour of the tissue that stands on a day where the injury took a depth.
+// Computes one texel of the reflectance table: the tissue's colour for an injury depth (column) and a day
+// (row).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -10,15 +11,15 @@ layout(constant_id = 0) const int MODEL = REFLECTANCE_TWO_STREAM;
 
 layout(scalar, set = 0, binding = 0) uniform Parameters { LutParameters parameters; };
 layout(scalar, set = 0, binding = 1) readonly buffer Layers { LutLayer layers[]; };
-layout(scalar, set = 0, binding = 2) readonly buffer Bands { LutBand bands[]; };   // of each layer in turn
-layout(scalar, set = 0, binding = 3) readonly buffer Weights { mat3 weights[]; };  // of each band: its channels -> linear RGB
+layout(scalar, set = 0, binding = 2) readonly buffer Bands { LutBand bands[]; };   // grouped by layer
+layout(scalar, set = 0, binding = 3) readonly buffer Weights { mat3 weights[]; };  // per band: channels -> RGB
 layout(scalar, set = 0, binding = 4) readonly buffer Days { LutDay days[]; };
 layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D lut_out;
 
 const uint FIRST_INTACT = 2;
 
-// Layer i of the day's list where the injury took `injury_mm`; `removed_mm` is what is still to be taken away.
-// As layers_at in wound/healing_tissue.cpp.
+// Layer i of the day's list for an injury `injury_mm` deep; `removed_mm` is the thickness still to be
+// removed. Same as layers_at in wound/optics/healing_tissue.cpp.
 LutLayer layer_at(uint base, uint i, LutDay day, float injury_mm, inout float removed_mm)
 {
     LutLayer layer = layers[base + i];
@@ -36,14 +37,15 @@ LutLayer layer_at(uint base, uint i, LutDay day, float injury_mm, inout float re
     return layer;
 }
 
-// What the day's tissue reflects at the three channels of a band, less what its first surface reflects.
+// Reflectance of the day's tissue at the three channels of a band, without the reflection at the first
+// surface.
 vec3 reflect_band(uint band, uint base, LutDay day, float injury_mm)
 {
     float removed_mm = min(day.missing_ratio + day.regrown_ratio, 1.0) * injury_mm;
     float n_first = parameters.n_above, n = parameters.n_above;
     Element stack = Element(vec3(0.0), vec3(0.0), vec3(1.0), vec3(1.0));
     vec3 paper_sum = vec3(0.0), incoming = vec3(1.0);
-    LutLayer pending; // the printed equations need the next layer's index: a layer is finished when that is known
+    LutLayer pending; // the published equations need the next layer's index: they run one layer late
     LutBand pending_optics;
     bool any_layer = false;
     for (uint i = 0; i <= parameters.layers_per_day; ++i) {

@@ -1,3 +1,3 @@
-// Depth alone: nothing to colour.
+// Writes only depth.
 #version 460
 void main() {}

@@ -1,4 +1,4 @@
-// Depth of the head seen from the key light.
+// Projects the head's vertices to the key light's clip space.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

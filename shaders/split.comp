@@ -1,4 +1,4 @@
-// Two pictures of one size side by side in one: left of the divider the first, right of it the second.
+// Combines two pictures of equal size: left_picture left of the divider, right_picture from the divider on.
 #version 460
 
 layout(local_size_x = 8, local_size_y = 8) in;

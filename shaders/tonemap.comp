@@ -1,4 +1,4 @@
-// Linear light to 8-bit sRGB: exposure, an optional roll-off of highlights, the exact sRGB curve.
+// Linear light to 8-bit sRGB: exposure, optional soft shoulder for highlights, exact sRGB curve.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -6,10 +6,11 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool shoulder = true;
-layout(constant_id = 1) const bool transparent = false; // straight alpha instead of a backdrop
+layout(constant_id = 1) const bool transparent = false; // straight alpha instead of the backdrop
 layout(binding = 0) uniform sampler2D hdr;
 layout(binding = 1, rgba8) uniform writeonly image2D encoded;
-layout(binding = 2, scalar) uniform ExposureBlock { float exposure_factor; vec3 top, bottom; }; // multiplies linear light; the backdrop, encoded as it is
+// top, bottom: linear colours of the backdrop, not exposed
+layout(binding = 2, scalar) uniform ExposureBlock { float exposure_factor; vec3 top, bottom; };
 
 void main()
 {
@@ -19,7 +20,7 @@ void main()
     vec4 radiance = texelFetch(hdr, texel, 0);
     float alpha = clamp(radiance.a, 0.0, 1.0);
     vec3 linear = finite_radiance(radiance.rgb) * exposure_factor;
-    if (transparent && alpha > 0.0) // the colour of what is there, however little of it
+    if (transparent && alpha > 0.0) // undo the premultiplication
         linear /= alpha;
     if (shoulder)
         linear = soft_shoulder(linear);

@@ -1,4 +1,4 @@
-// The user interface: a colour times a texture (glyphs, or a picture). Encoded values are blended as they are.
+// The user interface: a colour times a texture (glyphs or a picture). Blends sRGB-encoded values directly.
 #version 460
 
 layout(location = 0) in vec2 uv;

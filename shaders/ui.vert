@@ -1,4 +1,4 @@
-// The user interface: triangles in pixels, their colours sRGB-encoded, as they are shown.
+// The user interface: triangles in pixel coordinates with sRGB-encoded colours.
 #version 460
 
 layout(location = 0) in vec2 position; // pixels

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Slope and occlusion of the wound's hollow from its depth, once per day, so that the forward pass pays one sample.
+// Computes slope and occlusion of the wound from its depth once per day, so that the forward pass samples
+// only one map.
 #include "shared/wound.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -22,15 +23,15 @@ void main()
     if (any(greaterThanEqual(p, size)))
         return;
 
-    // Sobel: a slope less noisy than the central difference at the same reach.
+    // Sobel filter: less noisy than the central difference of the same width.
     const float l = depth(p + ivec2(-1, -1)) + 2 * depth(p + ivec2(-1, 0)) + depth(p + ivec2(-1, 1));
     const float r = depth(p + ivec2(1, -1)) + 2 * depth(p + ivec2(1, 0)) + depth(p + ivec2(1, 1));
     const float t = depth(p + ivec2(-1, -1)) + 2 * depth(p + ivec2(0, -1)) + depth(p + ivec2(1, -1));
     const float b = depth(p + ivec2(-1, 1)) + 2 * depth(p + ivec2(0, 1)) + depth(p + ivec2(1, 1));
     const vec2 slope = vec2(r - l, b - t) / (8 * params.texel_mm);
 
-    // Horizon-based occlusion over six directions: how far the walls stand up around this point. cos^2 of the
-    // horizon's elevation is the cosine-weighted share of the sky that a direction's slice still sees.
+    // Horizon-based occlusion from the wound's walls in six directions. cos^2 of the horizon's elevation is
+    // the cosine-weighted share of the sky that is visible in a direction's slice.
     const float here = depth(p);
     float open = 0;
     for (int k = 0; k < 6; ++k)

@@ -1,12 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// The wound's day-0 maps as they lie today: Choi & Chin 2014, section 3. Each texel asks the backward warp where its skin lay.
+// Warps the wound's day-0 maps to today, Choi & Chin 2014, section 3. For each texel the backward warp gives
+// the position of its skin on day 0.
 #include "lib/phases.glsl"
 #include "shared/wound.h"
 
 layout(constant_id = 0) const uint WARP_MODEL = 1;          // wound::WarpModel
-layout(constant_id = 1) const bool BED_APART = false; // the bed closes inside the border by a warp of its own
+layout(constant_id = 1) const bool BED_APART = false; // the bed closes inside the border by a separate warp
 layout(constant_id = 2) const bool PHASES = false;    // the bed passes through clot, fibrin and granulation
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -18,7 +19,8 @@ layout(scalar, binding = 4) uniform Today_ { WoundToday today; };
 layout(scalar, binding = 5) readonly buffer WarpValues_ { vec2 warp_values[]; };
 #include "lib/warp.glsl"
 
-// Contraction squeezes several day-0 texels into one of today; the mip level that holds them follows from how far the radius moved.
+// Contraction maps several day-0 texels to one of today's; the ratio of the radii gives the mip level to
+// sample.
 float mip_of(vec2 today_point, vec2 day0_point, vec2 centre)
 {
     return log2(max(distance(day0_point, centre) / max(distance(today_point, centre), 1e-6), 1));
@@ -42,7 +44,7 @@ void main()
         const vec2 from_bed = warp_backward(WARP_MODEL, today.bed, p);
         bed_shape = textureLod(day0_shape, from_bed * 0.5 + 0.5, mip_of(p, from_bed, today.bed.center)).rg;
     }
-    // New skin ends softly: its coverage comes from a mip level that blurs about a millimetre, once there is any new skin.
+    // New skin has a soft edge: its coverage comes from a mip level that blurs by about a millimetre.
     if (PHASES)
         border_shape.g = mix(border_shape.g, textureLod(day0_shape, from_border * 0.5 + 0.5, border_mip + 3.5).g,
                              today.border_softness);

@@ -1,5 +1,5 @@
-// Linear light and its sRGB encoding (IEC 61966-2-1, exact piecewise form). No film curve: skin must keep the colour the
-// optics gave it, so everything up to a knee is exposure and sRGB alone, and only what lies above rolls off.
+// Linear light and its sRGB encoding (IEC 61966-2-1, exact piecewise form). There is no film curve, because
+// skin must keep the colour that the optics gave it: only values above the knee are compressed.
 #ifndef LIB_COLOR_GLSL
 #define LIB_COLOR_GLSL
 
@@ -15,12 +15,12 @@ vec3 linear_from_srgb(vec3 encoded)
     return mix(power, encoded / 12.92, lessThanEqual(encoded, vec3(0.04045)));
 }
 
-// The largest value a half-float target holds; a light at the surface must not become infinite there.
+// Clamps to the largest half float, so that a light at the surface does not give infinity in the target.
 vec3 finite_radiance(vec3 linear) { return clamp(linear, 0.0, 65504.0); }
 
-// Identity up to the knee, then towards 1 without reaching it, with the same slope at the knee; a hyperbola, because an
-// exponential costs a software rasteriser as much again as the encoding. Channel by channel, so that a bright highlight
-// turns white as on film.
+// Identity up to the knee, then a hyperbola towards 1 with equal slope at the knee; on a software rasteriser
+// an exponential would cost as much as the encoding. Applied per channel, so that a bright highlight turns
+// white as on film.
 vec3 soft_shoulder(vec3 linear)
 {
     const float knee = 0.8;

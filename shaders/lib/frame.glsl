@@ -1,4 +1,4 @@
-// Orthonormal frames on interpolated normals and tangents, which arrive with any length.
+// Orthonormal frames from interpolated normals and tangents, which may have any length.
 #ifndef LIB_FRAME_GLSL
 #define LIB_FRAME_GLSL
 
@@ -7,11 +7,12 @@ vec3 normalize_or(vec3 v, vec3 otherwise)
     float largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
     if (!(largest > 1e-30 && largest < 1e30))
         return otherwise;
-    v /= largest; // so that the squares neither vanish nor overflow
+    v /= largest; // so that the squares neither underflow nor overflow
     return v * inversesqrt(dot(v, v));
 }
 
-// Any unit vector across the unit vector n; after Duff et al. 2017, "Building an orthonormal basis, revisited".
+// A unit vector perpendicular to the unit vector n; Duff et al. 2017, "Building an orthonormal basis,
+// revisited".
 vec3 across(vec3 n)
 {
     float s = n.z >= 0.0 ? 1.0 : -1.0;
@@ -19,8 +20,8 @@ vec3 across(vec3 n)
     return vec3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
 }
 
-// Columns: tangent, bitangent, normal. tangent.w is the bitangent's sign (glTF). A tangent along the normal, or none, gives
-// a frame turned anyhow, which only an anisotropic slope can tell.
+// Columns: tangent, bitangent, normal. tangent.w is the bitangent's sign (glTF). A zero tangent, or one along
+// the normal, gives an arbitrary rotation, which matters only for an anisotropic slope.
 mat3 frame_of(vec3 normal, vec4 tangent)
 {
     vec3 n = normalize_or(normal, vec3(0.0, 0.0, 1.0));
@@ -30,8 +31,8 @@ mat3 frame_of(vec3 normal, vec4 tangent)
     return mat3(t, cross(n, t) * (tangent.w < 0.0 ? -1.0 : 1.0), n);
 }
 
-// A bent normal may turn away from the viewer who sees the surface; it then lies at the horizon of his view, where a
-// reflection is dim but not cut off. n, to_viewer: unit.
+// A normal-mapped normal may face away from the viewer of the visible surface. This bends it back to the
+// horizon, where reflection is dim but not cut off. n, to_viewer: unit.
 vec3 bend_to_viewer(vec3 n, vec3 to_viewer)
 {
     const float least = 0.01;

@@ -1,4 +1,4 @@
-// The bed's colour as the wound passes through its phases; the double-precision twin is wound/phases.cpp.
+// The bed's colour in the healing phases; the double-precision reference is wound/healing/phases.cpp.
 #ifndef LIB_PHASES_GLSL
 #define LIB_PHASES_GLSL
 #include "shared/wound.h"
@@ -6,16 +6,16 @@
 // Linear Rec. 709.
 const vec3 CLOT_COLOR = vec3(0.055, 0.012, 0.009), FIBRIN_COLOR = vec3(0.52, 0.35, 0.15), GRANULATION_COLOR = vec3(0.37, 0.045, 0.042);
 
-// Whether a texel has turned when `share` of the bed has; rank 1 turns first.
+// How far (0..1) a texel has changed when `share` of the bed has; texels of rank 1 change first.
 float turned(float share, float rank) { return smoothstep(1 - 1.5 * share, 1.5 - 1.5 * share, rank); }
 
 vec3 tinted(vec3 color, BedPhase phase)
 {
     const float luminance = dot(color, vec3(0.2126, 0.7152, 0.0722));
     const float light = max(luminance, 1e-4) / max(phase.bed_luminance, 1e-4);
-    const float paleness = clamp(0.5 + 0.25 * log2(light), 0.0, 1.0); // 1/4 .. 4 times the median
+    const float paleness = clamp(0.5 + 0.25 * log2(light), 0.0, 1.0); // 0..1 for 1/4 .. 4 times the median
     const float redness = clamp(1 - 2 * color.g / max(color.r, 1e-4), 0.0, 1.0);
-    const float relief = sqrt(clamp(light, 0.35, 1.8)); // the texture of what was there shows through
+    const float relief = sqrt(clamp(light, 0.35, 1.8)); // the texture of the bed shows through
     color = mix(color, CLOT_COLOR * relief, 0.9 * turned(phase.clot, 1 - paleness));
     color = mix(color, FIBRIN_COLOR * relief, 0.8 * turned(phase.fibrin, paleness));
     return mix(color, GRANULATION_COLOR * relief, 0.65 * turned(phase.granulation, redness));

@@ -1,21 +1,22 @@
-// Diffuse reflectance of layered tissue in single precision: the analytic models (docs/optics.md). The double-precision reference is
-// wound/optics/reflectance.cpp; a test compares the two. All functions are finite for sigma <= 1e6 mm^-1, any thickness,
-// n in 1..3, g in -1..1, except the printed equations, which overflow far outside their domain.
+// Diffuse reflectance of layered tissue in single precision: the analytic models (docs/optics.md). A test
+// compares it with the double-precision reference wound/optics/reflectance.cpp. All functions are finite for
+// sigma <= 1e6 mm^-1, any thickness, n in 1..3, g in -1..1, except the published equations, which overflow
+// far outside their domain.
 #ifndef LIB_REFLECTANCE_GLSL
 #define LIB_REFLECTANCE_GLSL
 #include "../shared/models.h"
 
 
-// Henyey & Greenstein 1941, "Diffuse radiation in the galaxy": the integral over the backward half, multiplied out by the
-// conjugate because the textbook form is 0/0 at g = 0.
+// Henyey & Greenstein 1941, "Diffuse radiation in the galaxy": the integral over the backward hemisphere,
+// expanded by the conjugate because the textbook form is 0/0 at g = 0.
 float backward_fraction(float g)
 {
     float q = sqrt(1.0 + g * g);
     return (1.0 - g) / (q * (1.0 + g + q));
 }
 
-// Walsh 1926: diffuse Fresnel reflectance for light in the thinner medium; x = n - 1 > 0. Below 0.3 everything but the logarithm is
-// a Taylor series, since the closed form's terms grow as 1/x and cancel.
+// Walsh 1926: diffuse Fresnel reflectance for light from the medium of lower index; x = n - 1 > 0. For x <
+// 0.3 all but the logarithm is a Taylor series, because the terms of the closed form grow as 1/x and cancel.
 float external_diffuse_fresnel(float x)
 {
     float n = 1.0 + x, n2 = n * n, n4 = n2 * n2;
@@ -50,7 +51,7 @@ float diffuse_fresnel(float n_from, float n_to)
     if (difference > 0.0)
         return external_diffuse_fresnel(difference / n_from);
     float x = -difference / n_to, n = 1.0 + x;
-    // 1 - (1 - F)/n^2, arranged so that nothing cancels as n goes to 1.
+    // 1 - (1 - F)/n^2, rearranged to avoid cancellation as n goes to 1.
     return (x * (2.0 + x) + external_diffuse_fresnel(x)) / (n * n);
 }
 
@@ -66,14 +67,14 @@ Element boundary(float n_above, float n_below)
     return Element(vec3(down), vec3(up), vec3(1.0 - down), vec3(1.0 - up));
 }
 
-// Kubelka-Munk slab, Kubelka 1948, "New contributions to the optics of intensely light-scattering materials", divided by
-// kappa = sqrt(K (K + 2 S)) so that neither S = 0 nor K = 0 is special.
+// Kubelka-Munk slab, Kubelka 1948, "New contributions to the optics of intensely light-scattering materials",
+// divided by kappa = sqrt(K (K + 2 S)) so that neither S = 0 nor K = 0 is special.
 Element slab(vec3 S, vec3 K, float thickness_mm)
 {
-    float d = min(thickness_mm, 1e24); // infinite: far past any effect, without inf/inf or overflow
+    float d = min(thickness_mm, 1e24); // avoids inf/inf and overflow for infinite thickness
     vec3 x = 2.0 * d * sqrt(K * (K + 2.0 * S));
     vec3 e = exp(-x);
-    // (1 - exp(-x)) / x, by its series where the difference would lose its digits.
+    // (1 - exp(-x)) / x, by its series where the difference would lose precision.
     vec3 series = 1.0 - x * (0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x * (1.0 / 120.0))));
     vec3 f = 2.0 * d * mix((1.0 - e) / max(x, vec3(1e-3)), series, lessThan(x, vec3(0.1)));
     vec3 denominator = (S + K) * f + 1.0 + e;
@@ -81,8 +82,8 @@ Element slab(vec3 S, vec3 K, float thickness_mm)
     return Element(r, r, t, t);
 }
 
-// Adding. What leaves through either element bounds the round trip's loss from below; this keeps the sum finite when both
-// reflectances round to 1.
+// The adding method. The loss per round trip is at least the transmittance of either element; this bound
+// keeps the result finite when both reflectances round to 1.
 Element over(Element upper, Element lower)
 {
     vec3 loss = max(1.0 - upper.r_bottom * lower.r_top, max(max(upper.t_up, lower.t_down), vec3(1e-30)));
@@ -102,11 +103,11 @@ Element tissue_slab(int model, vec3 sigma_a, vec3 sigma_s_reduced, float g, floa
         vec3 K = sigma_a * (1.9179 - 0.7631 * (sigma_a / max(sigma_a + sigma_s_reduced, vec3(1e-30))));
         return slab(S, K, thickness_mm);
     }
-    // Eddington's S turns negative where absorption rules; there nothing scatters back.
+    // Eddington's S is negative where absorption dominates; it is clamped to no backscattering.
     return slab(max(0.75 * sigma_s_reduced - 0.25 * sigma_a, vec3(0.0)), 2.0 * sigma_a, thickness_mm);
 }
 
-// Choi & Chin 2014, eqs. (2) and (3), for one layer without the factor of the upper boundary.
+// Choi & Chin 2014, eqs. (2) and (3), for one layer, without the factor of the upper boundary.
 void paper_layer(int model, vec3 sigma_a, vec3 s, float thickness_mm, float lower_boundary, out vec3 reflected,
                  out vec3 transmitted)
 {
@@ -128,15 +129,17 @@ void paper_layer(int model, vec3 sigma_a, vec3 s, float thickness_mm, float lowe
     transmitted = left * (1.0 - lower_boundary);
 }
 
-// Eq. (3)'s factor: the light that leaves through the upper boundary, bounded in the two bounded forms by what entered.
+// The factor of eq. (3): the light that leaves through the upper boundary. The two bounded models limit it by
+// the light that entered.
 float paper_top_factor(int model, float n_above, float n_first)
 {
     float outward = 1.0 - diffuse_fresnel(n_first, n_above), inward = 1.0 - diffuse_fresnel(n_above, n_first);
     return model == REFLECTANCE_EXPONENTIAL ? inward : model == REFLECTANCE_CLAMPED ? min(outward, inward) : outward;
 }
 
-// A colour the forward pass can use: the printed equations go negative, above one and, far outside their domain, to NaN. Negative
-// and NaN become 0; what is above one stays, up to the largest half float, because that is what they say.
+// Makes a colour safe for the forward pass. The published equations give values below 0, above 1 and, far
+// outside their domain, NaN. Negative and NaN become 0; values above 1 are kept, up to the largest half
+// float, because they are the model's result.
 vec3 displayable(vec3 color)
 {
     return vec3(color.r > 0.0 ? min(color.r, 65504.0) : 0.0, color.g > 0.0 ? min(color.g, 65504.0) : 0.0,

@@ -1,4 +1,4 @@
-// Choi & Chin 2014, eq. (8), light by light: Lambert (5), translucency (6), Ward (7). Linear Rec. 709.
+// Choi & Chin 2014, eq. (8), per light: Lambert (5), translucency (6), Ward (7). Linear Rec. 709.
 #ifndef LIB_SHADING_GLSL
 #define LIB_SHADING_GLSL
 #include "lib/translucency.glsl"
@@ -8,10 +8,10 @@
 struct LightSample
 {
     vec3 direction; // unit, towards the light
-    vec3 strength;  // I at the point: radiance of a white diffuser that faces the light there
+    vec3 strength;  // I at the point: radiance of a white diffuser at the point that faces the light
 };
 
-// m from the light, or from a directional light's plane; a light inside the surface is a millimetre away.
+// Distance in m to the light, at least 1 mm, or to a directional light's plane, at least 0.
 float light_distance(Light light, vec3 position)
 {
     vec3 offset = light.position - position;
@@ -27,8 +27,9 @@ LightSample sample_light(Light light, vec3 position)
     return LightSample((light.position - position) / metres, ratio * ratio * light.strength);
 }
 
-// The three terms of eq. (8), apart, so that a shader that leaves one out does not compute it. Shadow belongs on
-// surface_diffuse and specular; the paper leaves the translucent light unshadowed. local = direction * mat3(t, b, n).
+// The three terms of eq. (8) are separate functions, so that a shader computes only those it uses. Apply
+// shadow to surface_diffuse and specular; the paper does not shadow translucent light. local = direction *
+// mat3(t, b, n).
 
 // Without the albedo C.
 vec3 surface_diffuse(ShadingParams p, LightSample light, vec3 local_light)
@@ -36,8 +37,8 @@ vec3 surface_diffuse(ShadingParams p, LightSample light, vec3 local_light)
     return p.rho_d * max(local_light.z, 0.0) * light.strength;
 }
 
-// Without the albedo C. It takes I at the reference distance, because eq. (6) is the fall-off. It changes so slowly over the
-// surface that it is evaluated at vertices: between two that are 3 mm apart the error is below .1 %.
+// Without the albedo C. Uses I at the reference distance, because eq. (6) is the fall-off. It varies so
+// slowly over the surface that it is evaluated per vertex: for vertices 3 mm apart the error is below .1 %.
 vec3 subsurface_diffuse(uint model, ShadingParams p, Light light, vec3 position)
 {
     float d = max(light.distance_scale * light_distance(light, position) + light.distance_offset, 0.0);

@@ -1,5 +1,6 @@
-// Choi & Chin 2014, section 3, with Arad et al. 1994: the backward warp, today's patch point -> day 0's, in single precision.
-// The double-precision twin is wound/warp/warp.cpp. The including shader declares, in a buffer of layout(scalar), `vec2 warp_values[]`.
+// Choi & Chin 2014, section 3, with Arad et al. 1994: the backward warp, today's patch point -> day 0's, in
+// single precision. The double-precision reference is wound/warp/warp.cpp. The including shader must declare
+// `vec2 warp_values[]` in a layout(scalar) buffer.
 #include "../shared/models.h"
 #include "../shared/warp.h"
 
@@ -13,7 +14,8 @@ vec2 warp_radial(WarpHeader warp, vec2 p)
     const float turn = (atan(offset.y, offset.x) / 6.283185307 + .5) * warp.count;
     const uint index = min(uint(turn), warp.count - 1);
     const float hull = mix(warp_values[warp.first + index].x, warp_values[warp.first + (index + 1) % warp.count].x, turn - index);
-    // Distance to the frame along the ray, in units of the radius: infinite along an axis, which min() drops.
+    // Distance to the patch's edge along the ray, in units of the radius; infinite parallel to an edge, so
+    // min() ignores it.
     const vec2 reach = (mix(vec2(-1), vec2(1), greaterThan(offset, vec2(0))) - warp.center) / offset;
     const float frame = radius * min(offset.x == 0 ? 1e9 : reach.x, offset.y == 0 ? 1e9 : reach.y);
     if (radius >= frame)
@@ -54,7 +56,7 @@ vec2 warp_steps(WarpHeader warp, vec2 p)
         for (uint i = 0; i < warp.count; ++i, value += 2) {
             const vec2 offset = p - warp_values[value];
             const float squared = dot(offset, offset);
-            moved += warp_values[value + 1] * (squared * log(squared + 1e-30)); // the bound keeps 0 log 0 at 0
+            moved += warp_values[value + 1] * (squared * log(squared + 1e-30)); // 1e-30 makes 0 log 0 equal 0
         }
         p += moved;
     }

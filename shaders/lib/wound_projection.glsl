@@ -1,4 +1,5 @@
-// Projects wounds onto the skin in object space: texture seams do not matter, and many wounds can sit on one head.
+// Projects wounds onto the skin in object space, so that texture seams do not matter and a head can have
+// several.
 #ifndef LIB_WOUND_PROJECTION_GLSL
 #define LIB_WOUND_PROJECTION_GLSL
 #include "lib/blend.glsl"
@@ -13,8 +14,8 @@ struct SkinPoint
     float tautness;  // 0 porous skin .. 1 new epithelium
 };
 
-// A patch is drawn much smaller than it is stored when the whole face is seen, and graph images have no mip levels: two
-// bilinear taps across the pixel's footprint keep a film from sparkling.
+// When the whole face is visible, a patch is strongly minified, and graph images have no mip levels: two
+// bilinear taps across the pixel's footprint reduce flicker in videos.
 vec4 patch_sample(sampler2D map, vec2 uv, vec2 footprint)
 {
     return 0.5 * (textureLod(map, uv + footprint, 0) + textureLod(map, uv - footprint, 0));
@@ -23,11 +24,12 @@ vec4 patch_sample(sampler2D map, vec2 uv, vec2 footprint)
 struct WoundPlace
 {
     vec2 uv;      // of the wound's images
-    float facing; // how much of the wound the surface receives there, 0..1; 0 beside the images
+    float facing; // share of the projection that the surface receives, 0..1; 0 outside the images
 };
 
-// Where a point of the head, in metres, lies in a wound's images. `geometric`: the interpolated normal, which decides what the
-// projection reaches; steep flanks fade out rather than smear. `facing` in double precision: passes::share_received().
+// Maps a point of the head, in metres, to a wound's images. `geometric`: the interpolated normal; the
+// projection fades out on steep flanks, where it would smear. `facing` in double precision:
+// head::share_received().
 WoundPlace project_wound(WoundFrame w, vec3 position, vec3 geometric)
 {
     const vec3 d = (position - w.centre) / w.half_width;
@@ -42,9 +44,10 @@ vec3 tissue_reflectance(WoundFrame w, sampler2D lut, uint part, float injury_mm)
     return textureLod(lut, lut_uv(w.lut, part, injury_mm, w.day, vec2(textureSize(lut, 0))), 0).rgb;
 }
 
-const float INFLAMED_MM = 0.5; // the inflamed rim is as red as if an injury of this depth had been covered there
+const float INFLAMED_MM = 0.5; // the inflamed rim has the colour of a covered injury of this depth
 
-// The face's own skin as the covered injury changes it: the table's colour over that of the same tissue without an injury.
+// The face's skin, changed by a covered injury: multiplied by the table's colour over its colour without
+// injury.
 vec3 covered_skin(WoundFrame w, sampler2D lut, float injury_mm, vec3 skin)
 {
     const vec3 unhurt = max(tissue_reflectance(w, lut, LUT_COVERED, 0), vec3(1e-3));
@@ -56,7 +59,7 @@ void add_wound(uint blend_model, WoundFrame w, sampler2D color_map, sampler2D st
 {
     const WoundPlace place = project_wound(w, position, geometric);
     const vec2 uv = place.uv;
-    const vec2 footprint = 0.25 * (dFdx(uv) + dFdy(uv)); // before any branch: derivatives need the whole quad
+    const vec2 footprint = 0.25 * (dFdx(uv) + dFdy(uv)); // before any branch: needs the whole quad
     const float facing = place.facing;
     if (facing <= 0)
         return;
@@ -67,8 +70,9 @@ void add_wound(uint blend_model, WoundFrame w, sampler2D color_map, sampler2D st
     const vec4 state = textureLod(state_map, uv, 0);
     const vec4 relief = patch_sample(relief_map, uv, footprint);
 
-    // No photograph shows the new epithelium between bed and border: its W is R, and as its layers recover by the day, nothing
-    // is left for r to do. The rim has lost nothing, but is inflamed as well; what the photograph shows of that gives way to it.
+    // The photograph does not show the new epithelium between bed and border, so its W is R; its layers
+    // already recover with the day, so r is 0 there. The intact rim is inflamed too; new_skin replaces the
+    // photograph's colour there.
     const float renewed = w.epithelium * (1 - state.b), ring = w.epithelium * clamp(state.a - state.b, 0, 1);
     const float recovery = mix(w.border_recovery * (1 - w.epithelium * state.a), w.bed_recovery, state.b);
     const vec3 new_skin = renewed > 0 ? covered_skin(w, lut, max(state.g, INFLAMED_MM * (1 - state.a)), skin.albedo) : vec3(0);
@@ -76,9 +80,9 @@ void add_wound(uint blend_model, WoundFrame w, sampler2D color_map, sampler2D st
     const vec3 reflectance = mix(tissue_reflectance(w, lut, LUT_OPEN, state.r), new_skin, renewed);
     skin.albedo = mix(skin.albedo, recovering_color(blend_model, wound, reflectance, skin.albedo, recovery), opacity);
 
-    const float fresh = 1 - clamp(w.bed_recovery, 0, 1); // how much of the bed is still to be seen
+    const float fresh = 1 - clamp(w.bed_recovery, 0, 1); // visible share of the bed
     const float bed = state.b * opacity, taut = ring * opacity;
-    // The bed is uneven in a way of its own, which the pores stand for. The hollow bends the normal: height is -depth.
+    // The skin's pores approximate the unevenness of the bed. The hollow bends the normal: height is -depth.
     const vec3 smoothed = mix(skin.normal, geometric, clamp(0.4 * bed * fresh + w.pore_loss * taut, 0, 1));
     skin.normal = normalize(smoothed + facing * (relief.x * w.right + relief.y * w.down));
     skin.occlusion *= mix(1.0, relief.z, facing);

@@ -1,4 +1,4 @@
-// What the forward pass is told each frame; the same bytes in C++ and GLSL (scalar layout).
+// Per-frame parameters of the forward pass; the same bytes in C++ and GLSL (scalar layout).
 #ifndef SHARED_FRAME_H
 #define SHARED_FRAME_H
 #include "glsl.h"
@@ -7,8 +7,8 @@
 namespace shared {
 #endif
 
-// Four textures each, and the head's own four, make the 32 samplers that lavapipe allows a shader. (Beyond them it takes one
-// sampler for another.)
+// Four textures per wound and four of the head are the 32 samplers that lavapipe allows per shader. (With
+// more it confuses samplers.)
 #ifdef __cplusplus
 constexpr uint MAX_WOUNDS = 7;
 #else
@@ -21,24 +21,24 @@ struct View
     vec3 eye; // metres
 };
 
-/// Where a wound's patch lies on the head, and how far it is today.
+/// The position of a wound's patch on the head, and the wound's state today.
 struct WoundFrame
 {
     vec3 centre;      // metres
     float half_width; // metres, of the patch
     vec3 right;       // unit
-    float reach;      // skin further from the patch's plane than this receives nothing; in half widths
+    float reach;      // skin farther from the patch's plane receives no wound; in half widths
     vec3 down;        // unit
     float day;
     vec3 normal;      // unit
-    vec2 uv_scale;    // patch coordinates, -1..1, to the uv of the wound's images, which hold a region of the patch
-    vec2 uv_offset;
+    vec2 uv_scale;    // uv of the wound's images, which hold a region of the patch,
+    vec2 uv_offset;   // = uv_scale * patch coordinates (-1..1) + uv_offset
     float bed_recovery;    // r of eq. (4) in the open bed
     float border_recovery; // r of eq. (4) in the rim
-    LutAxes lut;      // of the wound's reflectance table
-    float epithelium; // 1 when new epithelium covers what lies between bed and border, 0 when the border itself closes
-    float pore_loss;  // of new epithelium and scar: 1 no pores or fine lines .. 0 as skin
-    float sheen;      // 1 as smooth and shiny as new epithelium .. 0 as skin
+    LutAxes lut;      // axes of the wound's reflectance table
+    float epithelium; // 1: new epithelium covers the area between bed and border; 0: the border contracts
+    float pore_loss;  // of new epithelium and scar: 1 no pores or fine lines .. 0 like skin
+    float sheen;      // 1 as smooth and shiny as new epithelium .. 0 like skin
 };
 
 #ifdef __cplusplus

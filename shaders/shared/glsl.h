@@ -1,5 +1,5 @@
-// GLSL's types by their own names in C++, so that the structs of shaders/shared/ are written once. Blocks that hold them
-// are layout(scalar): the C++ packing.
+// GLSL's type names for C++, so that the structs of shaders/shared/ are written once. Blocks that contain
+// them use layout(scalar), which packs like C++.
 #ifndef SHARED_GLSL_H
 #define SHARED_GLSL_H
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// What a label image says of a pixel, and what its pass is told; the same bytes in C++ and GLSL (scalar layout).
+// Label values of a pixel, and the label pass's parameters; the same bytes in C++ and GLSL (scalar layout).
 #ifndef SHARED_LABELS_H
 #define SHARED_LABELS_H
 #include "glsl.h"
@@ -12,14 +12,14 @@ namespace shared {
 CONSTANT LABEL_BACKGROUND = 0;
 CONSTANT LABEL_SKIN = 1;
 CONSTANT LABEL_OPEN_BED = 2;
-CONSTANT LABEL_NEW_EPITHELIUM = 3; // inside the outer border, closed: new epithelium, later scar
+CONSTANT LABEL_NEW_EPITHELIUM = 3; // inside the outer border but closed: new epithelium, later scar
 CONSTANT LABEL_OTHER = 4;          // eyes, mouth, clothes, solid hair
 
 struct LabelCamera
 {
     vec3 eye;         // metres
     vec3 forward;     // unit
-    float pixel_area; // of a pixel at unit depth: 1 / (fx fy)
+    float pixel_area; // area of a pixel at unit depth: 1 / (fx fy)
 };
 
 #undef CONSTANT

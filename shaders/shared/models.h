@@ -1,5 +1,5 @@
-// Models that a shader is compiled for, by a specialisation constant: the values of optics::ReflectanceModel, as far as a shader
-// knows them, and of wound::WarpModel.
+// Models that a specialisation constant selects: the values of optics::ReflectanceModel that the shader
+// implements, and of wound::WarpModel.
 #ifndef SHARED_MODELS_H
 #define SHARED_MODELS_H
 #include "glsl.h"

@@ -1,4 +1,4 @@
-// What the forward pass is told of one part of the head; the same bytes in C++ and GLSL (scalar layout).
+// The forward pass's parameters of one part of the head; the same bytes in C++ and GLSL (scalar layout).
 #ifndef SHARED_PART_H
 #define SHARED_PART_H
 #include "glsl.h"

@@ -1,4 +1,5 @@
-// What shading a point needs, eqs. (4)-(8) of Choi & Chin 2014; wound/shading.hpp explains each value and checks it.
+// Shading parameters, eqs. (4)-(8) of Choi & Chin 2014; wound/optics/shading.hpp explains and checks each
+// value.
 #ifndef SHARED_SHADING_H
 #define SHARED_SHADING_H
 #include "glsl.h"
@@ -9,7 +10,7 @@ namespace shared {
 #define CONSTANT const uint
 #endif
 
-// The order of the enums of wound/shading.hpp; which one is a specialisation constant of the shader.
+// Values of the enums of wound/optics/shading.hpp; a specialisation constant of the shader selects one.
 CONSTANT WARD_PUBLISHED = 0;
 CONSTANT WARD_DUER = 1;
 CONSTANT WARD_BOUNDED = 2;
@@ -28,23 +29,23 @@ struct ShadingParams
     float alpha, beta, gamma;       // eq. (6), for distances in the paper's unit
     float translucency_bound_4;     // W^-4, W the largest weight of the bounded translucency; 1e36 for W = 0
     vec2 slope;                     // alpha_x, alpha_y of eq. (7), 1e-4..1.5
-    vec3 ambient;                   // linear radiance of the surroundings, seen where occlusion leaves them open
+    vec3 ambient;                   // linear radiance of the surroundings, multiplied by ambient occlusion
 };
 
 struct Light
 {
-    vec3 position;            // m; of a directional light: a point of the plane from which distance is measured
+    vec3 position;            // m; directional: a point of the plane of distance 0
     uint kind;                // LIGHT_...
     vec3 direction;           // unit, towards the light; directional only
     float reference_distance; // m
-    vec3 strength;            // linear radiance of a white diffuser facing the light at the reference distance
+    vec3 strength;            // linear radiance of a white diffuser facing the light at reference_distance
     float distance_scale;     // paper's units per metre
     float distance_offset;    // paper's units
 };
 
 struct Lighting
 {
-    uint count; // lights in use; light[0] is the key light, the one that casts shadows
+    uint count; // lights in use; light[0] is the key light, which casts the shadow
     Light light[MAX_LIGHTS];
 };
 

@@ -1,4 +1,4 @@
-// The shadow of the key light: where a point of the world lies in the light's depth image.
+// The key light's shadow map: maps a point of the world to the light's depth image.
 #ifndef SHARED_SHADOW_H
 #define SHARED_SHADOW_H
 #include "glsl.h"

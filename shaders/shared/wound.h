@@ -7,7 +7,7 @@
 namespace shared {
 #endif
 
-/// What has become of the bed since the photograph; wound::Phase.
+/// The bed's healing phase; wound::Phase.
 struct BedPhase
 {
     float clot, fibrin, granulation; // shares of the bed, 0..1
@@ -18,21 +18,21 @@ struct BedPhase
 /// The wound today, for wound_texture.comp.
 struct WoundToday
 {
-    WarpHeader border;      // today's patch -> day 0, for what lies inside the outer border
-    WarpHeader bed;         // the same for the open bed
-    ivec2 first_texel;      // of the patch, where the images begin: they hold only what is ever drawn
-    float border_softness;  // 0 the border is the photograph's, 1 that of new skin, which ends softly
-    float bed_presence;     // 1 until closure, then 0: the last of the bed fades
+    WarpHeader border;      // today's patch -> day 0, inside the outer border
+    WarpHeader bed;         // today's patch -> day 0, for the open bed
+    ivec2 first_texel;      // patch texel where the images begin; they hold only the region that is drawn
+    float border_softness;  // 0: the border is sharp as in the photograph; 1: soft, as of new skin
+    float bed_presence;     // 1 until closure, then fades to 0
     BedPhase phase;
 };
 
-/// For wound_relief.comp.
+/// Parameters of wound_relief.comp.
 struct Relief
 {
     float depth_scale;  // today's depth / day 0's
-    float scar_mm;      // height of new skin between the bed and the border
+    float scar_mm;      // height of new skin between bed and border
     float texel_mm;     // width of a texel on the skin
-    float reach_texels; // how far occlusion looks
+    float reach_texels; // largest distance of occluders
 };
 
 #ifdef __cplusplus
