@@ -43,7 +43,7 @@ shared::Part part_params(const HeadPart& part)
     switch (part.surface) {
     case head::Surface::Skin:
         break;
-    case head::Surface::Eye: // a wet, smooth ball: the highlight's energy in a lobe a fifth as wide
+    case head::Surface::Eye: // wet and smooth: half the specular reflectance in a lobe a fifth as wide
         params.slope = 0.2f;
         params.specular = 0.5f;
         params.translucency = 0.5f;
@@ -56,8 +56,8 @@ shared::Part part_params(const HeadPart& part)
     return params;
 }
 
-/// Every sampler of the shader must be given; a draw without wounds gets the head's white texel instead.
-void give_wounds(graph::Draw& draw, const ForwardInput& input, bool wounded, graph::ImageId blank)
+/// Binds every wound sampler of the shader; unused ones get the head's white texel.
+void bind_wounds(graph::Draw& draw, const ForwardInput& input, bool wounded, graph::ImageId blank)
 {
     std::vector<graph::ImageId> color(shared::MAX_WOUNDS, blank), state = color, relief = color, lut = color;
     for (std::size_t i = 0; wounded && i < input.wounds.size(); ++i) {
@@ -145,7 +145,7 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
                     graph::Sampler::LinearRepeatMips);
         draw.sample("occlusion_map", graph.import(fmt::format("occlusion {}", i), *part.occlusion),
                     graph::Sampler::LinearRepeatMips);
-        give_wounds(draw, input, part.wounded, blank);
+        bind_wounds(draw, input, part.wounded, blank);
     }
     return radiance;
 }

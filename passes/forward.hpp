@@ -1,6 +1,6 @@
 // Draws the head: albedo and normal map, wounds projected in object space, the blend of eq. (4) and the
-// shading of eq. (8). Triangles that no wound touches are drawn by a variant that knows no wounds; a term
-// that is off is not compiled in.
+// shading of eq. (8). Triangles that no wound touches use a shader variant without wounds; a shading term
+// that is off is not compiled.
 #pragma once
 #include <glm/glm.hpp>
 #include <optional>
@@ -19,8 +19,8 @@
 
 namespace passes {
 
-/// What a tile of the picture sees (the whole, when the tile is no tile). Depth range fitted to a head of
-/// these bounds.
+/// The view of a tile, or of the whole picture if `tile` covers it. The depth range is fitted to the head's
+/// bounds.
 shared::View make_view(const head::Camera& camera, const Head& head, const ViewportTile& tile);
 
 struct ForwardWound
@@ -28,11 +28,11 @@ struct ForwardWound
     head::Anchor anchor;
     WoundTexture texture;
     ReflectanceLut lut;
-    shared::LutAxes axes; // of the lut
+    shared::LutAxes axes; // of `lut`
     const wound::WoundDay* today = nullptr;
 };
 
-/// As the shaders read them (project_wound() and add_wound() in shaders/lib/wound_projection.glsl).
+/// The wounds' uniform block, read by project_wound() and add_wound() (shaders/lib/wound_projection.glsl).
 struct WoundUniform
 {
     shared::WoundFrame frames[shared::MAX_WOUNDS];
@@ -44,14 +44,13 @@ struct ForwardInput
     const Head& head;
     std::span<const ForwardWound> wounds;  // at most shared::MAX_WOUNDS
     std::span<const optics::Light> lights; // at most shared::MAX_LIGHTS; the first casts the shadow
-    std::optional<shared::Shadow> shadow;  // none: no shadow is cast
+    std::optional<shared::Shadow> shadow;  // none: no shadow
     graph::ImageId shadow_depth;           // used with `shadow`
-    bool every_frame = true;               // run even when nothing has changed
+    bool every_frame = true;               // run the pass even when nothing has changed
 };
 
-/// Adds one raster pass; the result is linear radiance, RGBA16F, alpha 1 on the head
-/// and 0 beside it; at its edges, radiance is premultiplied. `samples` is 1 or 4; with 4 the result is
-/// resolved.
+/// Adds one raster pass. The result is linear radiance premultiplied by alpha, RGBA16F; alpha is 1 on the
+/// head and 0 beside it. `target.samples` is 1 or 4; with 4 the result is resolved.
 graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const shared::View& view,
                            const optics::Shading& shading, const graph::ImageDesc& target);
 

@@ -1,4 +1,4 @@
-// The recipe of a frame: which passes there are and what flows between them.
+// Declares a frame: its passes and the images that they exchange.
 #pragma once
 #include <span>
 #include <vector>
@@ -13,7 +13,7 @@
 
 namespace passes {
 
-/// A wound in a frame: where it is, its day-0 maps, its tissue over the days, and what it is today.
+/// A wound in a frame: its position, day-0 maps, tissue over the days, and today's state.
 struct FrameWound
 {
     const head::Anchor& anchor;
@@ -22,7 +22,7 @@ struct FrameWound
     const wound::WoundDay& today;
 };
 
-/// What a frame shows. Everything is kept by the caller while the frame is declared.
+/// The contents of a frame. The caller must keep everything alive during add_frame().
 struct FrameInput
 {
     const Head& head;
@@ -33,16 +33,16 @@ struct FrameInput
     optics::ReflectanceModel reflectance = optics::ReflectanceModel::TwoStream;
     ViewportTile tile;
     std::uint32_t samples = 1;
-    float exposure_stops = 0; // each doubles the light
-    bool every_frame = true;  // draw the head even when nothing has changed, as those who measure it want
+    float exposure_stops = 0; // each stop doubles the light
+    bool every_frame = true;  // draw the head even when nothing has changed, for measurements
 };
 
 struct FrameImages
 {
     graph::ImageId picture;  // RGBA8, sRGB-encoded
-    graph::ImageId radiance; // RGBA16F, linear, neither exposed nor with a backdrop, premultiplied
+    graph::ImageId radiance; // RGBA16F, linear, premultiplied, without exposure and backdrop
     std::vector<WoundTexture> wounds;
-    LabelImages labels; // cost nothing unless they are read back
+    LabelImages labels; // drawn only if they are read back
 };
 
 FrameImages add_frame(graph::Graph& graph, const FrameInput& input);

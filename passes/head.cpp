@@ -8,7 +8,8 @@
 namespace passes {
 namespace {
 
-/// Splits a part's triangles into those that an anchor reaches and the rest, appending both to `indices`.
+/// Splits a part into the triangles that an anchor's patch reaches and the rest; appends both to `indices`
+/// and `parts`.
 void append_split(const head::Model& model, std::span<const head::Anchor> anchors, HeadPart part,
                   std::vector<std::uint32_t>& indices, std::vector<HeadPart>& parts)
 {

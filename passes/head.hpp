@@ -1,4 +1,4 @@
-// A head on the device: its mesh, its materials' textures, and what kind of surface each of its parts is.
+// A head on the device: its mesh, textures and parts.
 #pragma once
 #include <memory>
 #include <span>
@@ -18,9 +18,9 @@ struct HeadPart
     head::Surface surface = head::Surface::Skin;
     std::uint32_t first_index = 0, index_count = 0;
     bool blend = false, double_sided = false;
-    bool wounded = false; // skin that some wound's patch reaches
+    bool wounded = false; // skin that a wound's patch reaches
     const gpu::Texture *albedo = nullptr, *normal = nullptr,
-                       *occlusion = nullptr; // owned by the head, never null
+                       *occlusion = nullptr; // owned by Head::textures; never null after upload_head()
     glm::vec4 albedo_factor{1.0f};
     float normal_scale = 1.0f;
 };
@@ -29,7 +29,7 @@ struct Head
 {
     std::vector<HeadPart> parts; // opaque first, then blended
     std::shared_ptr<const gpu::MeshBuffer> mesh;
-    std::vector<head::Primitive> casters; // what casts a shadow, of the mesh as it came
+    std::vector<head::Primitive> casters; // shadow casters: the opaque primitives, in caster_mesh
     std::shared_ptr<const gpu::MeshBuffer> caster_mesh;
     std::vector<std::shared_ptr<const gpu::Texture>> textures;
     const gpu::Texture* white = nullptr; // one texel
@@ -39,11 +39,11 @@ struct Head
 gpu::MeshBuffer upload_mesh(const gpu::Device& device, std::span<const head::Vertex> vertices,
                             std::span<const std::uint32_t> indices, const std::string& name);
 
-/// Uploads the model, one part for each of its primitives, none of them wounded.
+/// Uploads the model; each of its primitives becomes one part, not wounded.
 Head upload_head(const gpu::Device& device, const head::Model& model);
 
-/// The same head on the device, with the skin triangles that an anchor's patch reaches in parts of their own.
-/// Vertices, textures and what casts the shadow are shared with `head`, which upload_head made of `model`.
+/// Returns a copy of `head` with separate parts for the skin triangles that an anchor's patch reaches. It
+/// shares vertices, textures and shadow casters with `head`, which upload_head() must have made from `model`.
 Head with_wounds(const gpu::Device& device, const Head& head, const head::Model& model,
                  std::span<const head::Anchor> anchors);
 

@@ -24,7 +24,7 @@ LabelImages add_labels(graph::Graph& graph, const Head& head, std::span<const Fo
     for (const HeadPart& part : head.parts) {
         if (part.blend)
             continue;
-        // Every sampler of the shader must be given; a draw without wounds gets the white texel instead.
+        // Every sampler of the shader must be bound; unused ones get the white texel.
         std::vector<graph::ImageId> state(shared::MAX_WOUNDS, blank), relief = state;
         for (std::size_t i = 0; part.wounded && i < wounds.size(); ++i) {
             state[i] = wounds[i].texture.state;

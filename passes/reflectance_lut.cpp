@@ -11,7 +11,7 @@ namespace passes {
 
 namespace {
 
-// Three channels of a list; past its end the last one is repeated, where the weights are zero.
+// The three channels of a band. Past the end it repeats the last channel, where the weights are zero.
 shared::vec3 three(std::span<const double> channels, std::size_t band)
 {
     const auto at = [&](std::size_t i) {
@@ -25,7 +25,7 @@ std::vector<shared::mat3> band_weights(std::size_t channels)
     const std::span<const base::Color> weights = optics::channel_weights(channels);
     assert(!weights.empty());
     std::vector<shared::mat3> bands((channels + 2) / 3, shared::mat3(0.0f));
-    for (std::size_t i = 0; i < channels; ++i) // a column holds what one channel adds to R, G and B
+    for (std::size_t i = 0; i < channels; ++i) // a column holds one channel's contribution to R, G and B
         for (int c = 0; c < 3; ++c)
             bands[i / 3][static_cast<int>(i % 3)][c] = static_cast<float>(weights[i][c]);
     return bands;
@@ -33,7 +33,7 @@ std::vector<shared::mat3> band_weights(std::size_t channels)
 
 void append(LutTissue& tissue, const optics::Layer& layer)
 {
-    constexpr double thickest_mm = 1e9; // an infinite layer would give inf / inf
+    constexpr double thickest_mm = 1e9; // instead of infinity, which would give inf / inf
     tissue.layers.push_back({.g = static_cast<float>(layer.g),
                              .n = static_cast<float>(layer.n),
                              .thickness_mm = static_cast<float>(std::min(layer.thickness_mm, thickest_mm))});
@@ -75,8 +75,8 @@ ReflectanceLut add_reflectance_lut(graph::Graph& graph, std::string_view name, c
     }
     assert(model <= optics::ReflectanceModel::Calibrated);
     const auto height = static_cast<std::uint32_t>(tissue.days.size());
-    // Half floats: every device filters them linearly; their error, 2.4e-4 of the value, is below the table's
-    // own.
+    // Half floats: every device can filter them linearly. Their relative error, 2.4e-4, is below the error of
+    // the table itself.
     const graph::ImageId lut = graph.image(name, {width, height, VK_FORMAT_R16G16B16A16_SFLOAT});
     graph::ComputePass& pass = graph.compute(name, "reflectance_lut.comp");
     pass.constant("MODEL", static_cast<std::int32_t>(model));

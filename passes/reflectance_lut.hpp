@@ -14,17 +14,17 @@
 
 namespace passes {
 
-/// The tissue of every row as the shader reads it. Make it when the tissue or the healing curve changes and
-/// keep it.
+/// The tissue of every row in the shader's format. Compute it once per tissue and healing curve, and reuse
+/// it.
 struct LutTissue
 {
-    std::vector<shared::LutLayer> layers; // of every row in turn
-    std::vector<shared::LutBand> bands;   // of every layer in turn
-    std::vector<shared::mat3> weights;    // of every band: its channels -> linear RGB
+    std::vector<shared::LutLayer> layers; // grouped by row
+    std::vector<shared::LutBand> bands;   // grouped by layer
+    std::vector<shared::mat3> weights;    // per band: its channels -> linear RGB
     std::vector<shared::LutDay> days;     // one per row
     shared::LutParameters parameters;
-    /// The finished table, of a model that the shader does not know (wound/reflectance_table.hpp). None: it
-    /// is baked by a compute pass.
+    /// The finished table, for a model that the shader does not implement (wound/reflectance_table.hpp).
+    /// None: a compute pass bakes the table.
     std::shared_ptr<const gpu::Texture> table;
 };
 
@@ -36,13 +36,13 @@ struct ReflectanceLut
     graph::ImageId reflectance; // linear RGB, >= 0 and finite; u = injury depth, v = part and day
 };
 
-/// `model`: one that the shader knows, up to Calibrated, unless the tissue brings its table. Adds one compute
-/// pass `name`, which the graph skips while the tissue stands; with a table none.
-/// Width: texels over depth.
+/// Adds one compute pass `name`, which the graph skips while the tissue is unchanged; adds none if the tissue
+/// has a table. Without a table, the shader must implement `model` (up to Calibrated). `width`: number of
+/// texels along depth.
 ReflectanceLut add_reflectance_lut(graph::Graph& graph, std::string_view name, const LutTissue& tissue,
                                    optics::ReflectanceModel model, std::uint32_t width = wound::lut_size);
 
-/// Half floats, as the shader stores them, for LutTissue::table.
+/// Uploads a table as half floats, the format of the baked one, for LutTissue::table.
 gpu::Texture upload_reflectance_table(const gpu::Device& device, const cv::Mat3f& table,
                                       const std::string& name);
 

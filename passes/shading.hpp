@@ -1,5 +1,4 @@
-// The shader's form of light and shading: the structs of shaders/shared/shading.h filled from
-// wound/optics/shading.hpp.
+// Converts the lights and shading of wound/optics/shading.hpp to the structs of shaders/shared/shading.h.
 #pragma once
 #include <glm/glm.hpp>
 #include <span>

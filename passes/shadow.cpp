@@ -17,7 +17,7 @@ std::array<glm::dvec3, 8> corners(const glm::vec3& box_min, const glm::vec3& box
     return result;
 }
 
-// Looks along `forward`; the roll is free and follows the world's up or, for a light overhead, its back.
+// Looks along `forward`. The roll is arbitrary: up is the world's y or, for a nearly vertical light, -z.
 glm::dmat4 light_view(const glm::dvec3& eye, const glm::dvec3& forward)
 {
     const glm::dvec3 up = std::abs(forward.y) > 0.99 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
@@ -37,7 +37,7 @@ std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::
 
     const glm::dvec3 eye = parallel ? center + 2 * radius * direction : position;
     const double distance = glm::length(center - eye);
-    if (!(radius > 0) || distance < 1.2 * radius) // wider than about 110 degrees
+    if (!(radius > 0) || distance < 1.2 * radius) // the frustum would be wider than about 110 degrees
         return std::nullopt;
     const glm::dmat4 view = light_view(eye, (center - eye) / distance);
 
@@ -53,7 +53,7 @@ std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::
     const double margin = 0.01 * radius;
     near = std::max(near - margin, 0.05 * distance);
     far += margin;
-    half *= 1 + 4.0 / shadow_size; // room for the filter beyond the outermost texel
+    half *= 1 + 4.0 / shadow_size; // margin for the filter's footprint
 
     glm::dmat4 projection =
         parallel ? glm::orthoRH_ZO(-half, half, -half, half, near, far)
@@ -76,7 +76,7 @@ graph::ImageId add_shadow(graph::Graph& graph, const shared::Shadow& shadow, con
         draw.mesh = &mesh;
         draw.first_index = caster.first_index;
         draw.index_count = caster.index_count;
-        draw.cull_back_faces = false; // a bust is open below, and thin sheets have one side
+        draw.cull_back_faces = false; // a bust is open at the bottom, and thin sheets are one-sided
     }
     return depth;
 }

@@ -1,4 +1,4 @@
-// The picture as the screen and the file want it: linear light to 8-bit sRGB, encoded by our own shader.
+// Converts linear light to 8-bit sRGB in a shader.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -10,23 +10,23 @@ namespace passes {
 
 enum class Highlights : std::uint8_t
 {
-    SoftShoulder, // below .8 unchanged, above it towards 1 without clipping
+    SoftShoulder, // unchanged below .8, above it approaches 1 without clipping
     Clip,
 };
 
-/// What stands behind the head, where the radiance's alpha is 0: a vertical gradient, linear, not exposed; or
-/// nothing.
+/// The background where the radiance's alpha is below 1: a vertical gradient, linear, not exposed; or
+/// transparent.
 struct Backdrop
 {
     glm::vec3 top{0}, bottom{0}; // of the image
     bool transparent = false;
 };
-/// The studio's, from the top of the whole picture to its bottom; of a tile, its part of that.
+/// The part of the studio's backdrop, a gradient over the whole picture's height, that the tile covers.
 Backdrop backdrop_of(const ViewportTile& tile);
 
-/// Adds one pass. `hdr` is linear Rec. 709, premultiplied by its alpha; the result, of the same size, is
-/// RGBA8 UNORM holding sRGB codes: opaque, or with a transparent backdrop straight alpha. `exposure` in
-/// stops: each doubles the light. No dither, so that equal frames give equal files.
+/// Adds one pass. `hdr`: linear Rec. 709, premultiplied by alpha. The result has the same size, RGBA8 UNORM
+/// with sRGB codes: opaque, or with straight alpha for a transparent backdrop. `exposure` in stops: each
+/// doubles the light. No dither, so that equal frames give equal files.
 graph::ImageId add_tonemap(graph::Graph& graph, graph::ImageId hdr, float exposure,
                            Highlights highlights = Highlights::SoftShoulder, const Backdrop& backdrop = {});
 

@@ -5,7 +5,7 @@
 namespace passes {
 namespace {
 
-/// The smallest even size of which `parts` cover `whole`.
+/// The smallest even size such that `parts` of it cover `whole`.
 std::uint32_t even_share(std::uint32_t whole, std::uint32_t parts)
 {
     const std::uint32_t share = (whole + parts - 1) / parts;
@@ -35,7 +35,7 @@ std::vector<ViewportTile> tiles(const ViewportTile& whole, std::uint32_t largest
 
 glm::dmat4 tile_from_picture(const ViewportTile& tile)
 {
-    // ndc -> pixels of the whole -> ndc of the tile, along x and y.
+    // NDC of the picture -> pixels of the picture -> NDC of the tile, for x and y.
     glm::dmat4 crop(1);
     for (int axis = 0; axis < 2; ++axis) {
         const double whole = tile.picture[axis], part = tile.size[axis];
@@ -48,7 +48,7 @@ glm::dmat4 tile_from_picture(const ViewportTile& tile)
 void place(cv::Mat& whole, const cv::Mat& image, const ViewportTile& tile)
 {
     const cv::Size picture(int(tile.picture[0]), int(tile.picture[1]));
-    whole.create(picture, image.type()); // the first time only
+    whole.create(picture, image.type()); // allocates only for the first tile
     const int edge = int(tile.apron);
     const cv::Rect own({edge, edge}, image.size() - cv::Size(2 * edge, 2 * edge));
     const cv::Point corner(tile.corner[0] + edge, tile.corner[1] + edge);

@@ -7,7 +7,7 @@ namespace passes {
 
 WoundMaps upload_wound(const gpu::Device& device, const wound::Patch& patch)
 {
-    cv::Mat half_color, half_shape; // every device filters half floats
+    cv::Mat half_color, half_shape; // every device can filter half floats
     wound::day0_color(patch).convertTo(half_color, CV_16F);
     wound::day0_shape(patch).convertTo(half_shape, CV_16F);
 

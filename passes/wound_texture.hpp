@@ -1,5 +1,5 @@
-// Warps a wound's day-0 maps to today and derives what the light needs to know of its relief. Two compute
-// passes per wound, both skipped while the wound and the day stand.
+// Warps a wound's day-0 maps to today and derives its slope and occlusion for shading. Two compute passes per
+// wound, both skipped while the wound and the day are unchanged.
 #pragma once
 #include <memory>
 #include <string>
@@ -20,25 +20,24 @@ struct WoundMaps
     double bed_luminance = 0;                  // median of the open bed
     double width_mm = 0;                       // of the patch
     int size = 0;                              // texels a side
-    cv::Rect region;                           // texels that today's maps hold; all of them unless it is set
+    cv::Rect region;                           // texels of the patch that today's maps cover; default: all
 };
 WoundMaps upload_wound(const gpu::Device& device, const wound::Patch& patch);
 
-/// Today's maps of the patch's region, RGBA16F; a label pass finds its place in them by project_wound() in
-/// shaders/lib/wound_projection.glsl.
+/// Today's maps of the patch's region, RGBA16F; shaders sample them by project_wound()
+/// (shaders/lib/wound_projection.glsl).
 struct WoundTexture
 {
-    graph::ImageId color;  // rgb: linear reflectance W; a: opacity, 0 the face's own skin
-    graph::ImageId state;  // day 0's depth in mm, r: of the open bed's hollow, g: of the injury inside the
+    graph::ImageId color;  // rgb: linear reflectance W; a: opacity, 0 shows the face's skin
+    graph::ImageId state;  // depth on day 0 in mm, r: of the open bed, g: of the injury inside the
                            // outer border; b: coverage of the open bed; a: coverage inside the border
-    graph::ImageId relief; // rg: slope of the depth along u and v, mm per mm; b: occlusion of the hollow, 1
+    graph::ImageId relief; // rg: slope of the depth along u and v, mm per mm; b: ambient occlusion, 1
                            // open; a: depth today in mm
     shared::vec2 uv_scale{.5}, uv_offset{.5}; // uv of the images = scale * patch coordinates + offset
 };
 
-/// The images' size is maps.region's, which must stay as the days pass.
-/// `suffix` tells the wounds of one scene apart in the names of passes and images: "" for the first, " 2" for
-/// the second.
+/// The images have the size of maps.region, which must be the same on all days. `suffix` makes the names of
+/// passes and images unique among the wounds of a scene: "" for the first, " 2" for the second.
 WoundTexture add_wound_texture(graph::Graph& graph, const std::string& suffix, const WoundMaps& maps,
                                const wound::WoundDay& today);
 
