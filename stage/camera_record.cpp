@@ -25,7 +25,7 @@ json numbers_of(const glm::dvec3& v)
 json camera_record(const Stage& stage, const head::Camera& camera, std::array<std::uint32_t, 2> size)
 {
     const double focal = size[1] / 2.0 / std::tan(glm::radians(camera.fov_deg) / 2);
-    // From OpenGL's camera, which looks along -z with y up, to that of computer vision.
+    // Converts from OpenGL's camera axes (y up, looking along -z) to those of computer vision.
     const glm::dmat4 camera_from_world =
         glm::scale(glm::dmat4(1), glm::dvec3(1, -1, -1)) * head::view_from_world(camera);
     return {{"eye", numbers_of(camera.eye)},

@@ -1,4 +1,4 @@
-// A picture's camera as numbers for other programs. docs/capture.md states the conventions.
+// Writes a picture's camera as JSON for other programs. docs/capture.md defines the conventions.
 #pragma once
 #include <nlohmann/json.hpp>
 

@@ -24,14 +24,14 @@ namespace stage {
 namespace {
 using nlohmann::json;
 
-constexpr std::size_t most_cells = 48;   // of healing.png, chosen evenly from all pictures
-constexpr std::uint32_t close_up = 1280; // px, longest side: it is shown small
+constexpr std::size_t most_cells = 48;   // of healing.png, spread evenly over all pictures
+constexpr std::uint32_t close_up = 1280; // px, longest side; the sheet shows it scaled down
 
-/// Wall-clock milliseconds since this process was started; none where /proc does not tell.
+/// Wall-clock milliseconds since the process started; none if /proc is not readable.
 std::optional<double> process_ms()
 {
-    // Field 22 of /proc/self/stat: start time in clock ticks since boot, behind a name that may hold blanks
-    // and parentheses.
+    // Field 22 of /proc/self/stat: start time in clock ticks since boot. Field 2, the program's name, may
+    // contain blanks and parentheses.
     std::ifstream stat("/proc/self/stat"), uptime("/proc/uptime");
     std::string line;
     if (!std::getline(stat, line) || !uptime)
@@ -45,7 +45,7 @@ std::optional<double> process_ms()
     return 1e3 * (now - std::stod(field) / double(::sysconf(_SC_CLK_TCK)));
 }
 
-/// The same shape, the longer side at most `largest`.
+/// Scales `size` down, keeping its aspect, so that the longer side is at most `largest`.
 std::array<std::uint32_t, 2> within(std::array<std::uint32_t, 2> size, std::uint32_t largest)
 {
     const double scale = std::min(1.0, double(largest) / std::max(size[0], size[1]));
@@ -73,7 +73,7 @@ std::size_t film_frames(const CaptureOptions& options)
     return std::size_t(std::lround(options.fps * options.duration_s));
 }
 
-/// The film's file; that of one view among several carries its name.
+/// The film's file; the name of a named view is appended to the stem.
 std::filesystem::path film_path(const std::filesystem::path& video, const std::string& view)
 {
     std::filesystem::path path = video;
@@ -162,7 +162,7 @@ class Capture
             record["wounds"].push_back(wound_record(today[i], drawing.bed_texels[i] / initial));
         }
         if (!today.empty())
-            record.update(record["wounds"][0]); // the first wound's numbers also stand at the top
+            record.update(record["wounds"][0]); // also copy the first wound's numbers to the top level
         for (std::size_t i = 0; i < today.size(); ++i)
             record["wounds"][i]["scene_wound"] =
                 stage_.loaded().wounds[i].scene_wound; // index into the scene's wounds
@@ -195,7 +195,7 @@ class Capture
                           });
     }
 
-    /// The same drawing as the pictures', frame by frame; while one is drawn, the one before is encoded.
+    /// Draws the frames like the pictures; while one frame is drawn, the previous one is encoded.
     json film(const scene::NamedCamera& view)
     {
         const std::vector<double>& days = stage_.scene().days;
@@ -234,7 +234,7 @@ class Capture
         return fmt::format("day {:.4g}{}{}", shot.day, shot.view.empty() ? "" : ", ", shot.view);
     }
 
-    /// Whether the picture of this number has a cell.
+    /// Whether the picture of this index gets a cell on the sheet.
     bool on_sheet(std::size_t index) const
     {
         const std::size_t cells = std::min(most_cells, shots_.size());
@@ -242,7 +242,7 @@ class Capture
                ((index + 1) * cells + shots_.size() - 1) / shots_.size();
     }
 
-    /// Beside a single view, the wound is shown large.
+    /// A close-up of the first wound; empty with several views or an orbit.
     cv::Mat3b sheet_close_up(const scene::Shot& shot)
     {
         if (views_.size() > 1 || options_.orbit > 0)
@@ -295,13 +295,13 @@ void check_capture(const CaptureOptions& options, const scene::Scene& scene)
     if (options.video.empty())
         return;
     if (options.video.extension() != ".mp4")
-        throw base::InputError("--video", "\"" + options.video.string() + "\" is no .mp4",
+        throw base::InputError("--video", "\"" + options.video.string() + "\" is not an .mp4 file",
                                "films are H.264 in MP4: give the file a name that ends in .mp4");
     if (options.transparent)
-        throw base::InputError("--transparent", "does not go with --video, for H.264 holds no alpha",
-                               "leave one of them out; pictures with alpha can be made by --orbit or --days");
+        throw base::InputError("--transparent", "cannot be combined with --video, because H.264 has no alpha",
+                               "omit one of them; --orbit or --days make pictures with alpha");
     if (film_frames(options) < 2)
-        throw base::InputError("--video", "would have less than two frames",
+        throw base::InputError("--video", "would have fewer than two frames",
                                "give a longer --duration or more --fps");
     if (scene.days.front() == scene.days.back() && options.orbit == 0)
         throw base::InputError("--video",

@@ -51,7 +51,7 @@ void Coco::add_region(int image, CocoCategory category, const cv::Mat1b& mask, c
 
 void Coco::join(const json& document, const std::string& folder)
 {
-    const std::size_t images = images_.size(); // ids run from 1 in every document
+    const std::size_t images = images_.size(); // ids start at 1 in every document
     for (json image : document.at("images")) {
         image["id"] = image.at("id").get<std::size_t>() + images;
         image["file_name"] = folder + "/" + image.at("file_name").get<std::string>();

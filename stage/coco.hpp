@@ -1,5 +1,5 @@
-// Annotations in COCO's format (cocodataset.org/#format-data): one document per capture, and joining many.
-// Masks are run-length encoded, uncompressed: runs of 0 and 1 in turn, beginning with 0, down the columns.
+// Annotations in COCO's format (cocodataset.org/#format-data), one document per capture; documents can be
+// joined. Masks are uncompressed run lengths: alternating runs of 0 and 1, starting with 0, column by column.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -7,10 +7,10 @@
 
 namespace stage {
 
-/// {"size": [height, width], "counts": [...]} of the pixels that are not 0.
+/// {"size": [height, width], "counts": [...]} of the non-zero pixels.
 nlohmann::json run_lengths(const cv::Mat1b& mask);
 
-/// The kinds of annotation. `Wound` is all inside the outer border: the other two together.
+/// The categories. `Wound` is everything inside the outer border: the union of the other two.
 enum class CocoCategory : int
 {
     Wound = 1,
@@ -21,12 +21,12 @@ enum class CocoCategory : int
 class Coco
 {
   public:
-    /// `attributes`: further fields of the image. Returns its id.
+    /// `attributes`: additional fields of the image. Returns the image's id.
     int add_image(const std::string& file_name, cv::Size size, const nlohmann::json& attributes);
-    /// One region of an image; nothing when the mask is empty. `attributes` as for images.
+    /// Adds one region of an image unless the mask is empty. `attributes`: additional fields of the region.
     void add_region(int image, CocoCategory category, const cv::Mat1b& mask,
                     const nlohmann::json& attributes);
-    /// Appends another document, whose pictures lie in `folder`, with ids of its own.
+    /// Appends another document with pictures in `folder`, and renumbers its ids.
     void join(const nlohmann::json& document, const std::string& folder);
     nlohmann::json document() const;
 

@@ -10,7 +10,7 @@ namespace stage {
 namespace {
 using nlohmann::json;
 
-/// Draws the scene with the terms of `shading`; the day moves by `days` over the measurement.
+/// Draws the scene with `shading`; the day advances by `days` over the measurement.
 MeasuredCase variant(const char* name, const Stage& stage, const optics::Shading& shading, double days = 0)
 {
     return {name, "", [&stage, shading, days](graph::Graph& graph, double position) {
@@ -52,8 +52,8 @@ json measure_cost(const gpu::Device& device, const graph::ShaderLibrary& library
     result["everything_over_ward_lambert"] = forward[0] / forward[2];
     result["unchanged_frame_ms"] = still;
     result["moving_day_over_unchanged"] = moving / still;
-    lines.push_back(fmt::format("forward pass, median of {} frames: everything {:.1f} ms; {:.2f} x without "
-                                "translucency; {:.2f} x Ward and Lambert only",
+    lines.push_back(fmt::format("forward pass, median of {} frames: {:.1f} ms with all terms, {:.2f} x the "
+                                "time without translucency, {:.2f} x the time with Ward and Lambert only",
                                 rounds, forward[0], forward[0] / forward[1], forward[0] / forward[2]));
     lines.push_back(fmt::format("unchanged frame {:.1f} ms; a frame on which the day moved {:.2f} x that",
                                 still, moving / still));

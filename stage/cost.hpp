@@ -1,4 +1,4 @@
-// What the shading terms and an unchanged frame cost, as ratios measured in one run.
+// Measures the cost of the shading terms and of an unchanged frame, as ratios within one run.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace stage {
 
-/// Measures the variants in turn and compares medians of `rounds` frames. `lines` receives what a person
-/// reads.
+/// Draws the variants alternately and compares the medians of `rounds` frames. Appends a summary for the user
+/// to `lines`.
 nlohmann::json measure_cost(const gpu::Device& device, const graph::ShaderLibrary& library,
                             const Stage& stage, std::vector<std::string>& lines, int rounds = 9);
 

@@ -13,7 +13,7 @@ using nlohmann::json;
 
 constexpr std::size_t most_rows = 8; // of labels.png
 
-/// Colours by LABEL_..., RGB, for people.
+/// Colours of LABEL_... in labels.png, RGB.
 const cv::Vec3b class_colors[] = {{0, 0, 0}, {90, 120, 190}, {220, 40, 40}, {245, 180, 60}, {90, 160, 90}};
 
 cv::Mat4f floats(const cv::Mat& halves)
@@ -34,11 +34,11 @@ cv::Mat3b overlaid(const cv::Mat3b& picture, const cv::Mat1b& kinds)
     return result;
 }
 
-/// Gray by the light of the picture where there is no depth; from dark blue to yellow up to `deepest_mm`.
+/// Colours the depth of wounds from dark blue (0) to yellow (`deepest_mm`) over the picture in gray.
 cv::Mat3b depth_picture(const passes::LabelMaps& maps, const cv::Mat3b& picture, double deepest_mm)
 {
     cv::Mat1b scaled, gray;
-    maps.depth_mm.convertTo(scaled, CV_8U, 255 / std::max(deepest_mm, 1e-3)); // saturates below 0 as well
+    maps.depth_mm.convertTo(scaled, CV_8U, 255 / std::max(deepest_mm, 1e-3)); // clamps depths below 0
     cv::Mat colored;
     cv::applyColorMap(scaled, colored, cv::COLORMAP_VIRIDIS);
     cv::cvtColor(colored, colored, cv::COLOR_BGR2RGB);

@@ -1,5 +1,5 @@
-// What `cicatrix capture --labels` writes beside the pictures: images, labels.json and coco.json. What each
-// holds, with its units and conventions: docs/labels.md.
+// Writes the files of `cicatrix capture --labels`: label images, labels.json and coco.json. docs/labels.md
+// defines their contents, units and conventions.
 #pragma once
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -14,15 +14,16 @@
 
 namespace stage {
 
-/// A picture's labels, drawn whole or by tiles as the picture itself, and pixel by pixel where it is.
+/// The labels of a picture, aligned with its pixels.
 struct DrawnLabels
 {
     cv::Mat picture; // RGB
     passes::LabelMaps maps;
     std::shared_ptr<const std::vector<wound::WoundDay>> wounds; // on the shot's day
-    std::vector<passes::VisibleWound> visible;                  // one per wound, as `sizes`
+    std::vector<passes::VisibleWound> visible;                  // one per wound, like `sizes`
     std::vector<passes::WoundSize> sizes;
 };
+/// Draws the labels whole or in tiles, like the picture.
 DrawnLabels draw_labels(Renderer& renderer, const Stage& stage, const scene::Shot& shot,
                         const DrawOptions& options);
 
@@ -32,11 +33,11 @@ class LabelFiles
     /// `folder` must exist; `tile` as in DrawOptions.
     LabelFiles(Renderer& renderer, std::filesystem::path folder, std::uint32_t tile);
 
-    /// Draws and writes a picture's label images. `entry` is its entry in capture.json: day, file and camera
-    /// are copied from it, and the names of the images are added to it as "labels".
+    /// Draws and writes a picture's label images. `entry` is the picture's entry in capture.json: add()
+    /// copies file, camera and turn from it and adds the names of the images as "labels".
     void add(const Stage& stage, const scene::Shot& shot, nlohmann::json& entry);
-    /// Writes labels.json, coco.json and labels.png, the page that shows them. Throws base::InputError
-    /// when something could not be written.
+    /// Writes labels.json, coco.json and the overview labels.png. Throws base::InputError when a file cannot
+    /// be written.
     void finish();
 
   private:

@@ -24,7 +24,7 @@ TimedFrame draw(gpu::Executor& executor, const MeasuredCase& drawn, double posit
     frame.start_ms = milliseconds(start - zero);
     frame.declare_ms = milliseconds(Clock::now() - start);
     frame.result = executor.run(graph);
-    frame.result.readbacks.clear(); // hundreds of pictures
+    frame.result.readbacks.clear(); // saves the memory of hundreds of pictures
     frame.result.plan = {};
     drawn.afterwards();
     return frame;

@@ -1,7 +1,6 @@
-// The one way in which commands measure what drawing costs: several cases in turn, frame by frame, so that a
-// machine that grows slower meanwhile slows all of them. Each case has an executor of its own and so a past
-// of its own: its frames follow each other as if nothing else were drawn. docs/report.md says how times are
-// taken.
+// Measures the cost of drawing, for all commands. The cases alternate frame by frame, so that a machine which
+// slows down affects all of them equally. Each case has a separate executor, so that its frames follow each
+// other as if nothing else were drawn. docs/report.md explains how times are measured.
 #pragma once
 #include <functional>
 #include <string>
@@ -13,18 +12,18 @@ namespace stage {
 
 struct MeasuredCase
 {
-    std::string name, what; // what: one line for the reader
-    /// Declares a frame with its read-backs; timed. `position` grows evenly from 0 to below 1 over the
-    /// frames, those of the warm-up included.
+    std::string name, what; // what: one line of description
+    /// Declares a frame with its read-backs; timed. `position` increases evenly from 0 to below 1 over all
+    /// frames, including the warm-up.
     std::function<void(graph::Graph&, double position)> declare;
     std::function<void()> afterwards = [] {}; // not timed
-    bool every_pass = false;                  // runs all that is needed, also what has not changed
+    bool every_pass = false;                  // also run passes whose inputs are unchanged
 };
 
 struct TimedFrame
 {
     double start_ms = 0;     // since the first frame of the measurement
-    double declare_ms = 0;   // the caller's work; result's times count from its end
+    double declare_ms = 0;   // duration of declare(); the times in `result` start at its end
     gpu::FrameResult result; // without plan and read-backs
     double wall_ms() const { return declare_ms + result.frame_ms; }
 };
@@ -33,7 +32,7 @@ struct Measurement
 {
     std::string name, what;
     std::vector<TimedFrame> frames;
-    std::vector<TimedFrame> counted; // frames of their own, for counting may slow a device down
+    std::vector<TimedFrame> counted; // separate frames with counters, which may slow the device down
 };
 
 struct Rounds
@@ -42,12 +41,13 @@ struct Rounds
     int all() const { return warm_up + counted + timed; }
 };
 
-/// `progress` is told after every round how many are done. One Measurement per case, in their order.
+/// Returns one Measurement per case, in the same order. Calls `progress` after every round with the number of
+/// finished rounds.
 std::vector<Measurement> measure(
     const gpu::Device& device, const graph::ShaderLibrary& library, const std::vector<MeasuredCase>& cases,
     const Rounds& rounds, const std::function<void(int)>& progress = [](int) {});
 
-/// The pass's GPU times in the frames in which it ran; its CPU times on a device without timestamps.
+/// The pass's times in ms in the frames in which it ran: GPU times, or CPU times without GPU timestamps.
 std::vector<double> pass_ms(const Measurement& measurement, std::string_view pass);
 std::vector<double> wall_ms(const Measurement& measurement);
 

@@ -22,7 +22,7 @@ json pass_costs(const gpu::FrameResult& frame)
     return passes;
 }
 
-/// Further tiles run again what the first one ran, or less; they have the same passes.
+/// Adds a further tile's times. Every tile has the same passes as the first, of which it may skip some.
 void add_costs(json& passes, const gpu::FrameResult& tile)
 {
     for (std::size_t i = 0; i < tile.passes.size(); ++i) {
@@ -34,7 +34,7 @@ void add_costs(json& passes, const gpu::FrameResult& tile)
     }
 }
 
-/// Coverage of the open bed in the warped mask, in texels.
+/// Area of the open bed in the warped mask, in texels.
 double bed_texels(const cv::Mat& state)
 {
     cv::Mat4f values;
@@ -42,7 +42,7 @@ double bed_texels(const cv::Mat& state)
     return cv::sum(values)[2];
 }
 
-/// Linear light as the encoding sees it: with the backdrop, which is not exposed, behind it.
+/// Composites linear light over the backdrop, which is divided by the exposure because it is not exposed.
 cv::Mat with_backdrop(const cv::Mat& premultiplied, const passes::ViewportTile& tile, double exposure_stops)
 {
     cv::Mat4f light;

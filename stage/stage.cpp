@@ -12,7 +12,7 @@ namespace {
 
 const optics::ReflectanceOptions table_options{.angles = 4, .photons = 2000}; // photons: per wavelength
 
-/// Days that are remembered: those of a report's cases, drawn in turn, and of two stages side by side.
+/// Number of cached days: enough for a report's alternating cases and for two stages side by side.
 constexpr std::size_t most_known_days = 4;
 
 double last_day(const scene::Scene& scene)
@@ -20,7 +20,7 @@ double last_day(const scene::Scene& scene)
     return std::max(1.0, *std::ranges::max_element(scene.days));
 }
 
-/// Whether the wounds of both are the same on every day.
+/// Whether both scenes have the same wounds on every day.
 bool same_wounds(const scene::LoadedScene& a, const scene::LoadedScene& b)
 {
     return std::ranges::equal(a.wounds, b.wounds, [](const auto& one, const auto& other) {
@@ -40,7 +40,7 @@ Stage::Preparation Stage::prepare(const scene::Scene& scene)
 Stage::Stage(const gpu::Device& device, const Preparation& preparation)
     : device_(&device), loader_(preparation.loader), seen_news_(preparation.loader->news())
 {
-    set_.loaded.head = preparation.head; // uploaded while workers are still fitting the wounds to it
+    set_.loaded.head = preparation.head; // make() uploads it while workers still fit the wounds to it
     accept(make(preparation.scene));
     wait_until_complete();
 }
@@ -72,11 +72,11 @@ bool Stage::poll()
         return false;
     seen_news_ = loader_->news();
     if (set_.loaded.complete)
-        return false; // another stage's news
+        return false; // the news concern another stage
     try {
         accept(make(set_.loaded.scene));
     } catch (const base::InputError&) {
-        if (whole_.bare) // none is there before the first scene is complete
+        if (whole_.bare) // null until the first scene is complete
             accept(whole_);
         throw;
     }
@@ -103,7 +103,7 @@ void Stage::prefetch(const scene::Scene& scene) const
             else
                 loader_->begin(scene.wounds[i], name);
     } catch (const base::InputError&) {
-        return; // tried again by update()
+        return; // update() tries again and reports the error
     }
 }
 
@@ -138,11 +138,11 @@ passes::WoundMaps Stage::maps_of(const scene::PlacedWound& wound) const
     }
     passes::WoundMaps maps = known->maps[wound.part];
     if (!wound.region.empty())
-        maps.region = wound.region; // else all of the patch
+        maps.region = wound.region; // by default the whole patch
     return maps;
 }
 
-/// Kept from the set before as long as tissue and curve stand.
+/// Reuses the table of another wound or of the previous set if tissue, model and healing are the same.
 passes::LutTissue Stage::lut_of(const Set& set, const wound::Healing& healing) const
 {
     for (std::size_t i = 0; i < set.wounds.size(); ++i)
@@ -162,7 +162,7 @@ passes::LutTissue Stage::make_lut(const Set& set, const wound::Healing& healing)
     const scene::Scene& scene = set.loaded.scene;
     const wound::LutRows rows = wound::lut_rows(set.loaded.tissue, healing, wound::lut_size, last_day(scene));
     passes::LutTissue tissue = passes::lut_tissue(rows.days, last_day(scene));
-    if (scene.reflectance_model > optics::ReflectanceModel::Calibrated) // the shader does not know it
+    if (scene.reflectance_model > optics::ReflectanceModel::Calibrated) // not implemented by the shader
         tissue.table = std::make_shared<gpu::Texture>(passes::upload_reflectance_table(
             *device_, wound::kept_table(rows, wound::lut_size, scene.reflectance_model, table_options),
             "reflectance table"));

@@ -1,15 +1,15 @@
-// A scene made ready to draw. A scene is a value: update() takes a new one and makes anew only what differs.
+// Prepares a scene for drawing. A scene is a value: update() takes a new one and recomputes what differs.
 //
-//   Stage stage(device, Stage::prepare(scene));             // everything is ready
+//   Stage stage(device, Stage::prepare(scene));             // waits until everything is ready
 //   Scene edited = stage.scene();
 //   edited.wounds[0].place = *stage.loaded().pick(stage.loaded().camera(), x, y, aspect);
-//   stage.update(edited);                                   // shown by the next frame that is declared
-//   if (stage.poll()) redraw();                             // what workers have finished is shown, too
+//   stage.update(edited);                                   // the next declared frame shows it
+//   if (stage.poll()) redraw();                             // workers have finished something
 //
-// What takes longer than a frame (reading a head or a photograph, fitting a wound to the skin it was moved
-// to) is made by workers while the picture goes on with what there is: a moved wound with the colours of its
-// old place, a new photograph's wound not before it is ready. Undo is update() with an earlier scene; what
-// was ready for it still is.
+// Worker threads do what takes longer than a frame (reading a head or a photograph, fitting a wound to the
+// skin it was moved to). Meanwhile frames show what is ready: a moved wound keeps the colours of its old
+// place, and a wound of a new photograph appears when it is ready. Undo is update() with an earlier scene;
+// its prepared data is cached.
 #pragma once
 #include <deque>
 #include <memory>
@@ -23,31 +23,31 @@
 
 namespace stage {
 
-/// What one frame shows of a stage.
+/// The parameters of one frame of a stage.
 struct FrameRequest
 {
     double day = 0;
-    passes::ViewportTile tile;              // the picture, or one of its tiles
+    passes::ViewportTile tile;              // the whole picture or one tile
     std::optional<head::Camera> camera;     // none: the scene's
     std::optional<optics::Shading> shading; // none: the scene's
-    /// Draw the head even when nothing has changed, as those who measure it want. A window does not: then
-    /// nothing runs when nothing has changed (gpu::Executor::up_to_date).
+    /// Draw the head even when nothing has changed, for measurements. A window sets it to false, so that no
+    /// pass runs when nothing has changed (gpu::Executor::up_to_date).
     bool every_frame = true;
 };
 
 struct Frame
 {
     passes::FrameImages images;
-    std::shared_ptr<const std::vector<wound::WoundDay>> wounds; // on the requested day, as loaded().wounds
+    std::shared_ptr<const std::vector<wound::WoundDay>> wounds; // on the requested day, like loaded().wounds
 };
 
-/// Used by one thread. Copies share what is on the device and whatever both show: for a second setting beside
-/// the first, `Stage right = left; right.update(other)`.
+/// For use by one thread. Copies share device data and everything that they have in common: for a second
+/// setting beside the first, `Stage right = left; right.update(other)`.
 class Stage
 {
   public:
-    /// What a scene needs of the CPU: the head, read, and the wounds, being prepared. Needs no device, so
-    /// that it can be made while one is opened.
+    /// The CPU data of a scene: the loaded head, and the wounds that the loader is preparing. Needs no
+    /// device, so that it can be made while a device is opened.
     struct Preparation
     {
         scene::Scene scene;
@@ -57,43 +57,43 @@ class Stage
     /// Throws base::InputError.
     static Preparation prepare(const scene::Scene& scene);
 
-    /// Waits for what is being prepared. Throws base::InputError.
+    /// Waits until the preparation is complete. Throws base::InputError.
     Stage(const gpu::Device& device, const Preparation& preparation);
 
-    /// The scene of the last update(), and what is shown of it: while workers are busy a wound may be
-    /// missing.
+    /// The scene of the last update(), and its loaded data; a wound may be missing while workers are busy.
     const scene::Scene& scene() const { return set_.loaded.scene; }
     const scene::LoadedScene& loaded() const { return set_.loaded; }
 
-    /// Shows another scene from the next declared frame on. Cheap enough for every event of a mouse that
-    /// drags something. Throws base::InputError and stays as it is when a value is out of range, a wound
-    /// is off the head or a tissue file is bad; other files' errors come from poll().
-    /// `dragging`: more are about to follow. Wounds are then not fitted to the skin of every place on the
-    /// way, which would take the time of the frames and crowd out what undo needs; the next update() without
-    /// it, of the same scene when the mouse rests, begins that.
+    /// Shows another scene from the next declared frame on. Fast enough to call for every mouse event of a
+    /// drag. Throws base::InputError and changes nothing when a value is out of range, a wound is off the
+    /// head or a tissue file is invalid; poll() reports errors of other files.
+    ///
+    /// `dragging`: more updates will follow, so wounds are not fitted to the skin of each intermediate place,
+    /// which would slow the frames down and evict cached data that undo needs. The next update() without it,
+    /// with the same scene when the mouse rests, starts the fitting.
     void update(const scene::Scene& scene, bool dragging = false);
-    /// Takes what the workers have finished; true when the next frame differs by it. Throws
-    /// base::InputError when one has failed: scene() is then back to the last one that was shown
-    /// completely. Call it now and then while pending().
+    /// Collects the workers' results; true when they change the next frame. Throws base::InputError when a
+    /// worker has failed: scene() is then the last completely shown scene again. Call it regularly while
+    /// pending().
     bool poll();
-    /// Whether workers are busy for the scene, so that a later frame will differ without another update().
+    /// Whether workers still prepare data of the scene, so that a later frame will differ without update().
     bool pending() const { return !set_.loaded.complete; }
-    /// Waits until everything is shown as the scene has it, also after dragging. Throws as poll().
+    /// Waits until all data of the scene is ready, also after dragging. Throws like poll().
     void wait_until_complete();
-    /// Lets workers begin with what another scene needs, so that update() to it waits less. Errors are
+    /// Starts workers on the data of another scene, so that it is ready sooner after update(). Errors are
     /// reported by that update().
     void prefetch(const scene::Scene& scene) const;
-    /// Shows the wounds' colours by any tissue, not only by one that a scene can name; until the next
+    /// Recomputes the wounds' colours for any tissue, also one that a scene cannot name; holds until the next
     /// update() with another tissue.
     void set_tissue(const optics::HealingTissue& tissue);
 
-    /// What the placed wounds are on a day. The last few days asked for are remembered.
+    /// The states of the placed wounds on a day. The last few requested days are cached.
     std::shared_ptr<const std::vector<wound::WoundDay>> wounds_on(double day) const;
 
-    /// What a camera sees on a tile.
+    /// The view of a camera for a tile.
     shared::View view(const head::Camera& camera, const passes::ViewportTile& tile) const;
 
-    /// Declares a frame. The graph keeps what the frame reads on the device.
+    /// Declares a frame. The graph keeps the device data that the frame reads alive.
     Frame declare(graph::Graph& graph, const FrameRequest& request) const;
 
   private:
@@ -103,14 +103,14 @@ class Stage
         passes::WoundMaps maps;
         passes::LutTissue tissue;
     };
-    /// All that a scene is on the stage. Cheap to copy: what is large is shared and never changed.
+    /// A scene's data on the CPU and the device. Cheap to copy: large data is shared and immutable.
     struct Set
     {
         scene::LoadedScene loaded;
-        std::shared_ptr<const passes::Head> bare, wounded; // on the device, without and with wounded parts
+        std::shared_ptr<const passes::Head> bare, wounded; // the head without and with wounded parts
         std::vector<DeviceWound> wounds;                   // one per loaded.wounds
     };
-    /// Uploaded maps of fitted wounds, kept for as long as the loader remembers the wound.
+    /// Uploaded maps of a photograph's wounds, kept while the photograph is alive.
     struct UploadedMaps
     {
         std::weak_ptr<const scene::FittedPhotograph> photograph;
@@ -133,12 +133,12 @@ class Stage
     std::shared_ptr<std::vector<UploadedMaps>> uploaded_ = std::make_shared<std::vector<UploadedMaps>>();
     std::uint64_t seen_news_ = 0;
     bool dragging_ = false;
-    Set set_, whole_;                         // whole_: the last complete one
-    mutable std::deque<KnownDay> known_days_; // of set_; the last asked for first
+    Set set_, whole_;                         // whole_: the last complete set
+    mutable std::deque<KnownDay> known_days_; // of set_, most recently requested first
 };
 
-/// Two stages in one picture: left of the divider (a share of the width, 0 to 1) the first, right of it the
-/// second. Moving the divider runs one small pass.
+/// Declares two stages in one picture: `left` left of the divider (share of the width, 0 to 1), `right` right
+/// of it. Moving the divider runs only one small pass.
 graph::ImageId declare_split(graph::Graph& graph, const Stage& left, const FrameRequest& left_request,
                              const Stage& right, const FrameRequest& right_request, double divider);
 
