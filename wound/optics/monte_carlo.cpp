@@ -123,7 +123,7 @@ class Walk
         tally.transmitted += transmitted;
     }
 
-    // Moves to the next scattering event or boundary. Returns -1 if the photon left upward, 1 downward, else 0.
+    // To the next scattering event or boundary. Returns -1 if the photon left upward, 1 downward, or 0.
     std::ptrdiff_t step(Random& random)
     {
         const Medium& medium = media_[static_cast<std::size_t>(photon_.layer)];
