@@ -68,7 +68,7 @@ cv::Mat1b moved(const cv::Mat1b& mask, const CutProblem& from, const CutProblem&
     return result;
 }
 
-/// Excludes other wounds from the picture and paints them in skin colour, so that GrabCut does not learn them.
+/// Excludes other wounds from the picture and paints them in skin colour, so GrabCut does not learn them.
 void leave_out(CutProblem& problem, const cv::Mat1b& others)
 {
     problem.picture.setTo(0, others);
