@@ -12,8 +12,8 @@ namespace scene {
 wound::SegmentationHints HintOptions::hints(const std::string& mask) const
 {
     if (!mask.empty() && !(seed.empty() && rect.empty()))
-        throw base::InputError("--seed, --rect", "are given beside a mask",
-                               "give one of the two: a mask needs no hints");
+        throw base::InputError("--seed, --rect", "are given together with a mask",
+                               "give either a mask or hints");
     wound::SegmentationHints hints;
     if (!seed.empty())
         hints.seed = cv::Point(seed[0], seed[1]);
@@ -26,13 +26,13 @@ void add_hint_options(CLI::App& command, HintOptions& options)
 {
     command
         .add_option("--seed", options.seed,
-                    "A pixel of the photograph inside the one wound to take, when there is no mask")
+                    "Without a mask: a pixel of the photograph inside the only wound to use")
         ->delimiter(',')
         ->expected(2)
         ->type_name("X,Y");
     command
         .add_option("--rect", options.rect,
-                    "A rectangle of the photograph around the wounds to take, when there is no mask")
+                    "Without a mask: a rectangle of the photograph around the wounds to use")
         ->delimiter(',')
         ->expected(4)
         ->type_name("X,Y,W,H");
@@ -48,15 +48,14 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
     command.add_option("--wound", options.wound, "Photograph for the first wound")->type_name("PHOTO");
     command
         .add_option("--mask", options.mask,
-                    "Mask for that photograph, white where the wound is; without one it is segmented")
+                    "Mask of that photograph, white in the wound; without a mask the photograph is segmented")
         ->type_name("PICTURE");
     add_hint_options(command, options.hints);
     command.add_option("--days", options.days, "Days to show: first:last:step, or a list such as 0,5,12")
         ->type_name("DAYS");
     command.add_option("--size", options.size, "Size of the pictures, for example 1280x720")
         ->type_name("WxH");
-    command
-        .add_option("--mode", options.mode, "published: the paper's equations as printed; corrected: mended")
+    command.add_option("--mode", options.mode, "The paper's equations: published (as printed) or corrected")
         ->check(CLI::IsMember({"published", "corrected"}));
     command.add_flag("--msaa", options.msaa, "Four samples per pixel");
     command
@@ -64,12 +63,12 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
                     "Vulkan device by index or part of its name; also CICATRIX_DEVICE")
         ->type_name("NAME|INDEX");
     command.add_flag("--validation", options.validation,
-                     "Run under the Vulkan validation layers; a message is a failure");
+                     "Run under the Vulkan validation layers; any message is a failure");
 }
 
 namespace {
 
-/// The first wound, from --wound, --mask, --seed and --rect.
+/// Applies --wound, --mask, --seed and --rect to the first wound.
 void override_wound(const SceneOptions& options, Scene& scene)
 {
     const wound::SegmentationHints hints = options.hints.hints(options.mask);
@@ -80,7 +79,7 @@ void override_wound(const SceneOptions& options, Scene& scene)
     Wound& wound = scene.wounds.front();
     if (!options.wound.empty())
         wound.photo = options.wound;
-    wound.mask = options.mask; // the scene's goes with another photo, or is what the hints replace
+    wound.mask = options.mask; // drop the scene's mask: it belongs to another photo, or the hints replace it
     wound.segmentation = hints;
     if (wound.photo.empty())
         throw base::InputError(options.mask.empty() ? "--seed, --rect" : "--mask", "is given without a photo",

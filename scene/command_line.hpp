@@ -1,5 +1,4 @@
-// The command-line options that every command on a scene shares: the scene file and what overrides its
-// fields.
+// Command-line options shared by all commands on a scene: the scene file and overrides of its fields.
 #pragma once
 #include <string>
 #include <vector>
@@ -16,7 +15,7 @@ namespace scene {
 struct HintOptions
 {
     std::vector<int> seed, rect;
-    /// Throws base::InputError when there is a mask, too.
+    /// Throws base::InputError if `mask` and a hint are both given.
     wound::SegmentationHints hints(const std::string& mask) const;
 };
 void add_hint_options(CLI::App& command, HintOptions& options);
@@ -33,7 +32,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options);
 /// The scene with the overrides applied. Throws base::InputError.
 Scene chosen_scene(const SceneOptions& options);
 
-/// `--model`, with all names and the default that `model` has.
+/// `--model`, one of all reflectance models; `model` holds the default.
 void add_model_option(CLI::App& command, optics::ReflectanceModel& model);
 
 } // namespace scene

@@ -1,5 +1,5 @@
-// Makes the entries of scene/field_table.cpp: a field of each type that JSON files hold. An accessor is a
-// generic lambda from the object, const or not, to a reference to the member.
+// Builds the entries of scene/field_table.cpp: one function per type of field. An accessor is a generic
+// lambda that takes the object, const or not, and returns a reference to the member.
 #pragma once
 #include <algorithm>
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 
 namespace scene {
 
-/// `file` as a scene's file names it; an absolute one stays as it is.
+/// Resolves `file` relative to the folder of `scene`; absolute and empty paths are unchanged.
 inline std::filesystem::path beside(const std::filesystem::path& scene, const std::string& file)
 {
     return file.empty() ? std::filesystem::path{} : scene.parent_path() / file;
@@ -59,7 +59,7 @@ Field<Object> number(const std::string& name, const std::string& unit, double lo
     return field;
 }
 
-/// Three numbers in a std::array or a plain one.
+/// Three numbers in a std::array or a C array.
 template <typename Object, typename Accessor>
 Field<Object> numbers(const std::string& name, const std::string& unit, double low, double high, Accessor at,
                       std::string meaning)
@@ -101,7 +101,7 @@ Field<Object> boolean(const std::string& name, Accessor at, std::string meaning)
         [=](nlohmann::json& to, const Object& object) { to[name] = at(object); });
 }
 
-/// One of `names`: of a text, or of an enum whose values count from 0 in their order.
+/// One of `names`; the member is a string, or an enum whose values count from 0 in the order of `names`.
 template <typename Object, typename Accessor>
 Field<Object> choice(const std::string& name, const std::vector<std::string>& names, Accessor at,
                      std::string meaning)
@@ -142,7 +142,7 @@ Field<Object> file(const std::string& name, std::string range, Accessor at, std:
     return field;
 }
 
-/// A preset's name, or a file when it ends in ".json".
+/// A preset's name, or a file if it ends in ".json".
 inline Field<Scene> tissue_field()
 {
     Field<Scene> field = custom<Scene>(
@@ -162,7 +162,7 @@ inline Field<Scene> tissue_field()
     return field;
 }
 
-/// Rules about several fields of one object.
+/// Checks rules that involve several fields of one object.
 void check_object(base::Fields& fields, const Wound& wound);
 void check_object(base::Fields& fields, const Light& light);
 template <typename Object>
@@ -181,7 +181,7 @@ void read_object(const std::vector<Field<Object>>& table, const nlohmann::json& 
     fields.finish();
 }
 
-/// A field that is an object with a table of its own.
+/// A field that is an object with its own table.
 template <typename Object, typename Member>
 Field<Object> nested(std::string name, const std::vector<Field<Member>>& table, Member Object::*member,
                      std::string meaning, Affects affects = Affects::Photograph)
@@ -199,7 +199,7 @@ Field<Object> nested(std::string name, const std::vector<Field<Member>>& table, 
     return field;
 }
 
-/// A field that is an array of such objects. `fresh` makes the object whose fields are then read.
+/// A field that is an array of such objects. `fresh` returns the object into which the fields are read.
 template <typename Object, typename Member, typename Fresh>
 Field<Object> list(std::string name, std::size_t most, const std::vector<Field<Member>>& table,
                    std::vector<Member> Object::*member, std::string meaning, Fresh fresh)
@@ -226,7 +226,7 @@ Field<Object> list(std::string name, std::size_t most, const std::vector<Field<M
         });
 }
 
-/// A default as a person writes it: `0.25`, `[0, 0, 0]`, `"cheek"`.
+/// A default value in short form: `0.25`, `[0, 0, 0]`, `"cheek"`.
 inline std::string default_text(const nlohmann::json& value)
 {
     if (value.is_number())
@@ -239,7 +239,7 @@ inline std::string default_text(const nlohmann::json& value)
     return fmt::format("[{}]", fmt::join(elements, ", "));
 }
 
-/// Fills in the default column of a table from what `object` writes.
+/// Sets the default_value of each field from `object`.
 template <typename Object>
 std::vector<Field<Object>> with_defaults(std::vector<Field<Object>> fields, const Object& object = {})
 {

@@ -42,42 +42,40 @@ const std::vector<Field<wound::Healing>>& healing_fields()
         choice<Healing>(
             "model", std::vector<std::string>{"contraction", "face"},
             [](auto& h) -> auto& { return h.model; },
-            "`contraction`: the border itself closes, as in the paper; `face`: it shrinks to a residual, and "
-            "new "
-            "skin closes the bed inside it"),
+            "`contraction`: the border itself closes, as in the paper; `face`: the border shrinks to a "
+            "residual, and new skin closes the bed inside it"),
         custom<Healing>(
             "areas", "path to `.csv`",
             "measured areas to which H3, Weibull or an exponential is fitted (`cicatrix fit`); a capture "
-            "records "
-            "the fitted numbers instead",
+            "records the fitted numbers instead",
             [](base::Fields& fields, Healing& healing, Reading& reading) {
                 const std::string series = fields.text("series", "");
                 if (const std::string areas = fields.text("areas", ""); !areas.empty())
                     healing.curve = wound::curve_from_areas(beside(reading.file, areas), series);
                 else if (!series.empty())
-                    fields.fail("series", "names a series of no table",
-                                "give areas, a CSV of measured areas");
+                    fields.fail("series", "is given without areas", "give areas, a CSV of measured areas");
             },
             [](json&, const Healing&) {}),
         custom<Healing>(
-            "series", "text", "whose curve of that table: a wound, `mean GROUP`; by default the mean of all",
+            "series", "text",
+            "the series of that table to use: a wound's name or `mean GROUP`; default: the mean of all",
             [](base::Fields&, Healing&, Reading&) {}, // read with areas
             [](json&, const Healing&) {}),
-        with_slider(number<Healing>(
-                        "gamma", "", .5, 4, [](auto& h) -> auto& { return h.curve.gamma; },
-                        "exponent of H3's power of time"),
-                    {"gamma", .5, 4, "%.2f"}),
+        with_slider(
+            number<Healing>(
+                "gamma", "", .5, 4, [](auto& h) -> auto& { return h.curve.gamma; }, "exponent of time in H3"),
+            {"gamma", .5, 4, "%.2f"}),
         with_slider(
             number<Healing>(
                 "delta", "day^-gamma", 0, 10, [](auto& h) -> auto& { return h.curve.delta; }, "H3's rate"),
             {"delta", .001, 2, "%.4f", true}),
         with_slider(number<Healing>(
                         "theta", "1/day", -1, 1, [](auto& h) -> auto& { return h.curve.theta; },
-                        "H3's hyperbolic rate; below 0 the wound grows first"),
+                        "H3's hyperbolic rate; if negative, the wound grows first"),
                     {"theta", -.2, .5, "%.3f"}),
         with_slider(number<Healing>(
                         "residual_border", "", 0, 1, [](auto& h) -> auto& { return h.residual_border; },
-                        "share of the area inside the outer border that is left at the end; for `face`"),
+                        "final share of the area inside the outer border; for `face`"),
                     {"residual", 0, 1, "%.2f of the border"}),
     });
     return table;
@@ -92,14 +90,14 @@ const std::vector<Field<Wound>>& wound_fields()
                    "none"),
         defaulting(file<Wound>(
                        "mask", "path", [](auto& w) -> auto& { return w.mask; },
-                       "white where the wound is, same size as the photo; none: segmented. All white: the "
-                       "photo is wound all over, its edge the border. Several white areas, or several "
-                       "wounds found, are several wounds, see below"),
+                       "white in the wound, same size as the photo; none: segmented. All white: the wound "
+                       "fills the photo, whose edge is the border. Several white areas, or several wounds "
+                       "found, are several wounds, see below"),
                    "none"),
         custom<Wound>(
             "segmentation", "object",
-            "without a mask, where in the photo the wounds are: `rect` `[x, y, w, h]` around those to take, "
-            "`seed` `[x, y]` inside the only one to take, in the photo's pixels",
+            "without a mask, where in the photo the wounds are, in pixels: `rect` `[x, y, w, h]` around the "
+            "wounds to use, `seed` `[x, y]` inside the only wound to use",
             [](base::Fields& fields, Wound& wound, Reading&) {
                 if (const json* hints = fields.get("segmentation"))
                     wound.segmentation = read_hints(*hints, fields.where("segmentation"));
@@ -109,10 +107,11 @@ const std::vector<Field<Wound>>& wound_fields()
             "kind", wound::shape_names(), [](auto& w) -> auto& { return w.kind; },
             "shape of the default wound"),
         integer<Wound>(
-            "seed", 0, 0xffffffff, [](auto& w) -> auto& { return w.seed; }, "of the default wound"),
+            "seed", 0, 0xffffffff, [](auto& w) -> auto& { return w.seed; },
+            "random seed of the default wound"),
         affecting(Affects::Fit,
                   custom<Wound>(
-                      "at", "see below", "where the wound's centroid sits",
+                      "at", "see below", "place of the wound's centroid",
                       [](base::Fields& fields, Wound& wound, Reading&) {
                           wound.place = read_place(fields, wound.place);
                       },
@@ -130,9 +129,10 @@ const std::vector<Field<Wound>>& wound_fields()
         with_slider(affecting(Affects::Fit,
                               number<Wound>(
                                   "depth_factor", "", 0, 5, [](auto& w) -> auto& { return w.depth_factor; },
-                                  "scales the depth that hue and tissue thickness give")),
+                                  "factor on the depth estimated from hue and tissue thickness")),
                     {"depth", 0, 3, "%.2f x"}),
-        nested<Wound>("healing", healing_fields(), &Wound::healing, "how it closes, see below", Affects::Fit),
+        nested<Wound>("healing", healing_fields(), &Wound::healing, "how the wound closes, see below",
+                      Affects::Fit),
     });
     return table;
 }
@@ -162,7 +162,7 @@ const std::vector<Field<Light>>& light_fields()
             "color", "linear", 0, 1000, [](auto& l) -> auto& { return l.color; }, "red, green, blue"),
         with_slider(number<Light>(
                         "intensity", "", 0, 1e4, [](auto& l) -> auto& { return l.intensity; },
-                        "irradiance / pi that reaches the face's middle; also times `color` at most 1e4"),
+                        "irradiance / pi at the face's middle; its product with `color` is at most 1e4"),
                     {"strength", 0, 4, "%.2f"}),
     });
     return table;
@@ -173,13 +173,13 @@ const std::vector<Field<Camera>>& camera_fields()
     static const std::vector<Field<Camera>> table = with_defaults<Camera>({
         number<Camera>(
             "azimuth_deg", "degrees", -180, 180, [](auto& c) -> auto& { return c.from.azimuth_deg; },
-            "where the camera stands: 0 in front of the face, positive to the viewer's right"),
+            "position of the camera: 0 in front of the face, positive to the viewer's right"),
         number<Camera>(
             "elevation_deg", "degrees", -89, 89, [](auto& c) -> auto& { return c.from.elevation_deg; },
             "positive above"),
         number<Camera>(
             "distance_m", "m", 0, 100, [](auto& c) -> auto& { return c.distance_m; },
-            "from the face's middle; 0: such that the head fills the picture"),
+            "from the target; 0: chosen so that the head fills the picture"),
         number<Camera>(
             "fov_deg", "degrees", 1, 120, [](auto& c) -> auto& { return c.fov_deg; },
             "vertical field of view"),
@@ -205,7 +205,7 @@ const std::vector<Field<optics::Shading>>& shading_fields()
             boolean<Shading>(
                 "ward", [](auto& s) -> auto& { return s.ward; }, "the specular term of eq. (8)"),
             boolean<Shading>(
-                "normal_map", [](auto& s) -> auto& { return s.normal_map; }, "pores"),
+                "normal_map", [](auto& s) -> auto& { return s.normal_map; }, "pores, by the normal map"),
             boolean<Shading>(
                 "shadow", [](auto& s) -> auto& { return s.shadow; }, "the first light's cast shadow"),
             choice<Shading>(
@@ -214,7 +214,7 @@ const std::vector<Field<optics::Shading>>& shading_fields()
             choice<Shading>(
                 "translucency_model", translucency_names,
                 [](auto& s) -> auto& { return s.translucency_model; },
-                "eq. (6) as printed, or with a largest weight"),
+                "eq. (6) as printed, or with an upper bound"),
             choice<Shading>(
                 "blend", blend_names, [](auto& s) -> auto& { return s.blend_model; },
                 "eq. (4) as printed, or ending exactly at the skin"),
@@ -229,7 +229,7 @@ const std::vector<Field<optics::Shading>>& shading_fields()
                 "specular coefficient (the paper: .8)"),
             number<Shading>(
                 "alpha", "", -1e6, 1e6, [](auto& s) -> auto& { return s.alpha; },
-                "of eq. (6); `alpha d + beta` must stay positive for every distance that occurs"),
+                "of eq. (6); `alpha d + beta` must be positive for every distance that occurs"),
             number<Shading>(
                 "beta", "", -1e6, 1e6, [](auto& s) -> auto& { return s.beta; }, "of eq. (6)"),
             number<Shading>(
@@ -253,7 +253,7 @@ const std::vector<Field<Scene>>& scene_fields()
     static const std::vector<Field<Scene>> table = with_defaults<Scene>({
         custom<Scene>(
             "version", fmt::format("{}", scene_version),
-            "of this format; a file of a later version is refused",
+            "of this format; files of later versions are rejected",
             [](base::Fields& fields, Scene&, Reading&) {
                 if (const json* version = fields.get("version"); version && *version != scene_version)
                     fields.fail(
@@ -264,11 +264,10 @@ const std::vector<Field<Scene>>& scene_fields()
             [](json& to, const Scene&) { to["version"] = scene_version; }),
         defaulting(file<Scene>(
                        "head", "path to `.glb` or `.gltf`", [](auto& s) -> auto& { return s.head; },
-                       "in metres, y up, face towards +z; a head of absurd size is scaled and the program "
-                       "says so"),
+                       "in metres, y up, face towards +z; a head of implausible size is scaled, with a note"),
                    "the default head"),
         custom<Scene>(
-            "healing", "object", "of every wound, field by field where the wound itself says nothing",
+            "healing", "object", "of every wound; a wound's own `healing` overrides single fields",
             [](base::Fields& fields, Scene& scene, Reading& reading) {
                 if (const json* all = fields.get("healing"))
                     read_object(healing_fields(), *all, fields.where("healing"), reading.healing_of_all,
@@ -276,7 +275,7 @@ const std::vector<Field<Scene>>& scene_fields()
                 for (Wound& wound : scene.wounds)
                     wound.healing = reading.healing_of_all;
             },
-            [](json&, const Scene&) {}), // each wound says its own
+            [](json&, const Scene&) {}), // each wound writes its own
         defaulting(list<Scene>("wounds", std::size_t(shared::MAX_WOUNDS), wound_fields(), &Scene::wounds,
                                "see below; `[]` renders the bare head",
                                [](const Reading& reading) {
@@ -288,8 +287,8 @@ const std::vector<Field<Scene>>& scene_fields()
         tissue_field(),
         choice<Scene>(
             "reflectance_model", reflectance_models(), [](auto& s) -> auto& { return s.reflectance_model; },
-            "how layers become colour ([optics](optics.md)). The last two are computed on the CPU, in "
-            "seconds and minutes, when a tissue is first seen, and kept in the cache folder"),
+            "how colour is computed from layers ([optics](optics.md)). The last two run on the CPU, for "
+            "seconds and minutes, when a tissue is first used; results are kept in the cache folder"),
         nested<Scene>("shading", shading_fields(), &Scene::shading, "see below"),
         defaulting(list<Scene>("lights", std::size_t(shared::MAX_LIGHTS), light_fields(), &Scene::lights,
                                "see below; the first one casts the shadow",
@@ -298,7 +297,7 @@ const std::vector<Field<Scene>>& scene_fields()
         nested<Scene>("camera", camera_fields(), &Scene::camera, "see below"),
         custom<Scene>(
             "views", "array, at most 64",
-            "further cameras for `capture`, see below; without any, `camera` is the picture's",
+            "further cameras for `capture`, see below; if empty, `camera` is used",
             [](base::Fields& fields, Scene& scene, Reading& reading) {
                 read_views(fields, scene.views, reading);
             },
@@ -325,7 +324,7 @@ const std::vector<Field<Scene>>& scene_fields()
                     {"exposure", -3, 3, "%+.2f stops"}),
         defaulting(custom<Scene>(
                        "days", "`\"first:last:step\"` or array, 0 to 3650",
-                       "days to render; a day may be named twice",
+                       "days to render; a day may occur twice",
                        [](base::Fields& fields, Scene& scene, Reading&) {
                            if (const json* days = fields.get("days"))
                                scene.days = read_days(*days, fields.where("days"));

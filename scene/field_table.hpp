@@ -1,6 +1,6 @@
-// The fields of a scene, each said once: name, unit, range, default, reading, writing, slider, documentation,
-// and what has to be made anew when it changes. A new field is a member of a struct in scene/scene.hpp and
-// one entry of a table in scene/field_table.cpp.
+// The fields of a scene, each defined once: name, unit, range, default, reading, writing, slider,
+// documentation, and what must be recomputed when it changes. To add a field, add a member to a struct in
+// scene/scene.hpp and an entry to a table in scene/field_table.cpp.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -19,20 +19,20 @@ class Fields;
 
 namespace scene {
 
-/// What of a prepared wound is made anew when a field changes; each includes those after it.
+/// What must be recomputed when a wound's field changes; each value includes those after it.
 enum class Affects
 {
-    Photograph, // which photograph it is, and what is found in it: the default, so that no field is forgotten
-    Preparation, // the maps made of it
-    Fit,         // its place on the skin
+    Photograph,  // the photograph and its segmentation; the default, which is safe for a new field
+    Preparation, // the maps made from the photograph
+    Fit,         // the fit to the skin
 };
 
-/// How the window shows a number: a part of its range.
+/// A number's slider in the window; it may cover only a part of the number's range.
 struct Slider
 {
     std::string label;
     double low = 0, high = 1;
-    const char* format = "%.2f"; // as printf has it
+    const char* format = "%.2f"; // of printf
     bool logarithmic = false;
 };
 
@@ -46,21 +46,21 @@ struct FieldInfo
     std::optional<Slider> slider;
 };
 
-/// What reading a field may need beyond its own value.
+/// Context for reading a field.
 struct Reading
 {
-    std::filesystem::path file;    // of the scene; files inside are relative to its folder
-    wound::Healing healing_of_all; // of every wound that says nothing else
+    std::filesystem::path file;    // the scene's file; paths in the scene are relative to its folder
+    wound::Healing healing_of_all; // the scene's `healing`, default of every wound
 };
 
 template <typename Object>
 struct Field : FieldInfo
 {
     std::function<void(base::Fields&, Object&, Reading&)> read;
-    /// Adds what the field is to a JSON object.
+    /// Adds the field to a JSON object.
     std::function<void(nlohmann::json&, const Object&)> write;
-    std::function<double&(Object&)> number;                   // of a field with a slider
-    std::function<std::filesystem::path(const Object&)> file; // of a field that names a file; may return none
+    std::function<double&(Object&)> number;                   // only for numbers
+    std::function<std::filesystem::path(const Object&)> file; // only for files; the path may be empty
     std::function<void(Object&, const std::filesystem::path&)> set_file;
 };
 
@@ -75,8 +75,8 @@ const std::vector<Field<optics::Shading>>& shading_fields();
 template <typename Object>
 const Field<Object>& field_named(const std::vector<Field<Object>>& fields, std::string_view name);
 
-/// Hashes every field of a wound whose change makes anew what `affects` names, and of its files also when
-/// they were last written.
+/// Hashes every field of a wound whose change requires recomputing `affects`, and the files' modification
+/// times.
 void hash_fields(base::Hash& hash, const Wound& wound, Affects affects);
 
 /// The tables of docs/scene.md by their headings ("scene", "wounds[]", ...), as Markdown.

@@ -13,7 +13,7 @@
 namespace scene {
 using nlohmann::json;
 
-// ---- What no builder can read or write
+// ---- Values without a builder
 // ---------------------------------------------------------------------------
 
 head::Place read_place(base::Fields& fields, const head::Place& fallback)
@@ -81,7 +81,7 @@ View read_view(const json& value, const std::string& where, Reading& reading)
         view.name, [](unsigned char c) { return c < 128 && (std::isalnum(c) || c == '-' || c == '_'); });
     if (view.name.empty() || view.name.size() > 40 || !fit)
         fields.fail("name", "is \"" + view.name + "\"",
-                    "give the view a name of letters, digits, - and _, for it goes into names of files");
+                    "give at most 40 letters, digits, - and _: the name becomes part of file names");
     Camera camera;
     for (const Field<Camera>& field : camera_fields())
         field.read(fields, camera, reading);
@@ -103,8 +103,8 @@ void read_views(base::Fields& fields, std::vector<View>& views, Reading& reading
         const std::string where = fmt::format("{}/{}", fields.where("views"), i);
         views.push_back(read_view((*list)[i], where, reading));
         if (std::ranges::count(views, views.back().name, &View::name) > 1)
-            throw base::InputError(where, "is called \"" + views.back().name + "\" as another one is",
-                                   "give each view a name of its own");
+            throw base::InputError(where, "has the name \"" + views.back().name + "\" of another view",
+                                   "give each view a different name");
     }
 }
 
@@ -124,7 +124,7 @@ json views_json(const std::vector<View>& views)
 
 wound::SegmentationHints read_hints(const json& object, const std::string& where)
 {
-    constexpr double most_pixels = 1 << 20; // whether they lie in the photograph is seen when that is read
+    constexpr double most_pixels = 1 << 20; // segment() checks them against the photograph's size
     base::Fields fields(object, where);
     wound::SegmentationHints hints;
     if (fields.has("rect")) {
@@ -139,7 +139,7 @@ wound::SegmentationHints read_hints(const json& object, const std::string& where
     return hints;
 }
 
-// ---- Rules about several fields of one object
+// ---- Rules that involve several fields of one object
 // --------------------------------------------------------------------
 
 void check_object(base::Fields& fields, const Wound& wound)
@@ -149,14 +149,14 @@ void check_object(base::Fields& fields, const Wound& wound)
     if (wound.segmentation.any() && wound.photo.empty())
         fields.fail("segmentation", "is given without a photo", "name the photo in which to look");
     if (wound.segmentation.any() && !wound.mask.empty())
-        fields.fail("segmentation", "is given beside a mask", "give one of the two: a mask needs no hints");
+        fields.fail("segmentation", "is given together with a mask", "give one of the two");
 }
 
 void check_object(base::Fields& fields, const Light& light)
 {
     if (const double brightest = light.intensity * *std::ranges::max_element(light.color); brightest > 1e4)
         fields.fail("intensity", fmt::format("times the color is {}", base::plain(brightest)),
-                    "keep that at most 1e4");
+                    "reduce the product to at most 1e4");
 }
 
 } // namespace scene

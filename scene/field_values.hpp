@@ -1,4 +1,4 @@
-// Values of a scene's fields that are neither numbers nor names: places, hints, days, views.
+// Reads and writes the values of fields that have no builder: places, hints, days, views.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -17,7 +17,7 @@ nlohmann::json hints_json(const wound::SegmentationHints& hints);
 
 std::vector<double> read_days(const nlohmann::json& value, const std::string& where);
 
-/// Adds those of the field `views`.
+/// Appends the views of the field `views`.
 void read_views(base::Fields& fields, std::vector<View>& views, Reading& reading);
 nlohmann::json views_json(const std::vector<View>& views);
 

@@ -77,7 +77,7 @@ std::vector<double> parse_days(const std::string& text, const std::string& where
         return numbers;
     if (numbers.size() != 3 || numbers[1] < numbers[0] || numbers[2] <= 0 ||
         (numbers[1] - numbers[0]) / numbers[2] > 10000)
-        throw base::InputError(where, "\"" + text + "\" is no range of days", cure);
+        throw base::InputError(where, "\"" + text + "\" is not a valid range of days", cure);
     std::vector<double> days;
     for (int i = 0; numbers[0] + i * numbers[2] <= numbers[1] + 1e-9 * numbers[2]; ++i)
         days.push_back(numbers[0] + i * numbers[2]);
@@ -93,7 +93,7 @@ std::array<std::uint32_t, 2> parse_size(const std::string& text, const std::stri
     const auto height = cross ? std::from_chars(width.ptr + 1, end, size[1]) : width;
     if (!cross || height.ec != std::errc{} || height.ptr != end ||
         std::ranges::any_of(size, [](auto s) { return s < 16 || s > 16384; }))
-        throw base::InputError(where, "\"" + text + "\" is no picture size",
+        throw base::InputError(where, "\"" + text + "\" is not a valid picture size",
                                "write WIDTHxHEIGHT, each from 16 to 16384, as in 1280x720");
     return size;
 }

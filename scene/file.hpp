@@ -1,4 +1,4 @@
-// Scene files: JSON in and out, by the table of fields.
+// Reads and writes scene files (JSON) by the table of fields.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,25 +12,24 @@
 
 namespace scene {
 
-/// The format of scene files. A file may state it as "version"; one of a later version is refused.
+/// Version of the scene format. A file may state it as "version"; files of later versions are rejected.
 inline constexpr int scene_version = 1;
 
-/// Reads a scene; files inside are relative to the scene's folder. Throws base::InputError naming file and
+/// Reads a scene; paths in it are relative to the scene's folder. Throws base::InputError naming file and
 /// field.
 Scene read_scene(const std::filesystem::path& path);
-/// The same of JSON that was read or made elsewhere: files inside are relative to the folder of `path`, and
-/// messages begin with `where`.
+/// Like read_scene(), from JSON: paths are relative to the folder of `path`, and messages begin with `where`.
 Scene scene_of(const nlohmann::json& root, const std::filesystem::path& path, const std::string& where);
-/// The scene as JSON, all fields spelled out, as capture.json records it; read_scene reads it back.
+/// The scene as JSON with all fields, as in capture.json; scene_of() of it gives an equal scene.
 nlohmann::json to_json(const Scene& scene);
 
-/// The same scene with the name of every file in it changed by `rename`; empty names stay empty.
+/// The scene with every non-empty file path replaced by rename(path).
 Scene with_files(Scene scene,
                  const std::function<std::filesystem::path(const std::filesystem::path&)>& rename);
 
-/// Writes the scene as a file that read_scene reads back as an equal value. Files in the new file's folder or
-/// below are named relative to it, so that the folder can be moved; others absolutely. Throws
-/// base::InputError when it cannot be written.
+/// Writes a file from which read_scene() returns an equal scene. Paths in the file's folder or below are
+/// relative to it, so that the folder can be moved; others are absolute. Throws base::InputError if the file
+/// cannot be written.
 void save_scene(const std::filesystem::path& path, const Scene& scene);
 
 /// "segmentation": {"seed": [x, y], "rect": [x, y, w, h]}; messages begin with `where`. Throws

@@ -14,7 +14,7 @@
 namespace scene {
 namespace {
 
-/// Crown to chin, about; the object of the paper's set-up.
+/// About the height from chin to crown, m; the object's size in the paper's set-up.
 double head_height(const head::FaceFrame& face)
 {
     return 1.65 * face.unit_m;
@@ -40,8 +40,8 @@ optics::Light make_light(const Light& light, const head::FaceFrame& face)
     return made;
 }
 
-/// The scene's lights about this face. Throws base::InputError for one that is out of range, or where eq. (6)
-/// has no value.
+/// The scene's lights around this face. Throws base::InputError if a value is out of range or eq. (6) is
+/// undefined.
 std::vector<optics::Light> make_lights(const Scene& scene, const head::FaceFrame& face)
 {
     std::vector<optics::Light> made;
@@ -66,8 +66,7 @@ std::vector<std::string> notes_on(const Scene& scene, const LoadedHead& head,
     return notes;
 }
 
-/// `exact`: the photograph is fitted for this wound as it is; otherwise it stands in for one that is being
-/// made.
+/// `exact`: `photograph` was fitted for this wound; otherwise it replaces one that is not ready yet.
 void place_wound(LoadedScene& loaded, std::size_t index,
                  const std::shared_ptr<const FittedPhotograph>& photograph, const std::string& name,
                  bool exact)
@@ -104,7 +103,7 @@ void place_wounds(LoadedScene& loaded, WoundLoader& loader, const LoadedScene& b
         if (exact && !std::ranges::all_of(photograph->wounds,
                                           [](const auto& w) { return w.prepared.patch.shows_skin; }))
             loaded.notes.push_back(
-                name + ": shows no healthy skin beside the wound; the face's own is taken for it");
+                name + ": shows no healthy skin beside the wound; the face's skin is used instead");
     }
 }
 
@@ -152,7 +151,7 @@ head::Camera LoadedScene::close_up(std::size_t wound) const
     if (wound >= wounds.size())
         return camera();
     const head::Anchor& anchor = wounds[wound].anchor;
-    // From a little above the surface's normal towards the front, so that the hollow can be seen as one.
+    // Tilted from the surface's normal towards the scene's camera, so that the hollow is recognisable.
     const glm::dvec3 towards = glm::normalize(anchor.normal + 0.35 * unit_towards(scene.camera.from));
     constexpr double fov_deg = 12;
     const double away = 0.95 * anchor.half_width_m / std::tan(glm::radians(fov_deg) / 2);
@@ -186,7 +185,7 @@ std::optional<std::size_t> LoadedScene::wound_near(const glm::dvec3& point, doub
             continue;
         const cv::Point2f at(float(glm::dot(from, anchor.right)), float(glm::dot(from, anchor.down)));
         const std::vector<cv::Point2f> border(wound.prepared().border.begin(), wound.prepared().border.end());
-        const double inside = cv::pointPolygonTest(border, at, true); // > 0 in it
+        const double inside = cv::pointPolygonTest(border, at, true); // distance, positive inside
         const double distance = std::hypot(at.x, at.y);
         if (inside * anchor.half_width_m >= -tolerance_m && (!found || distance < nearest)) {
             found = wound.scene_wound;
@@ -219,7 +218,7 @@ LoadedScene assemble(const Scene& scene, WoundLoader& loader, const LoadedScene&
         loaded.shown = scene.wounds;
     } else {
         loaded.head = before.head;
-        loaded.shown = before.shown; // the new ones may be for the new head
+        loaded.shown = before.shown; // the new wounds may be placed for the new head
         loaded.complete = false;
     }
     loaded.tissue = (before.complete || !before.shown.empty()) && scene.tissue == before.scene.tissue

@@ -23,7 +23,7 @@ namespace scene {
 struct WoundLoader::Prepared
 {
     std::vector<wound::WoundPart> parts;
-    std::vector<wound::PreparedWound> prepared; // each part's, with the depth of `tissue`
+    std::vector<wound::PreparedWound> prepared; // one per part, with depths for `tissue`
     wound::TissueThickness tissue;
 };
 
@@ -51,8 +51,8 @@ std::filesystem::path head_file(const std::filesystem::path& file)
     return file.empty() ? head::default_head_path() : file;
 }
 
-/// From face coordinates (unit: nose to crown) to those of the tissue map: ears at x = +-1, hairline and chin
-/// at y = +-1.
+/// Converts face coordinates (unit: nose to crown) to those of wound::tissue_thickness(): ears at x = +-1,
+/// hairline and chin at y = +-1.
 cv::Point2d tissue_coordinates(const head::FacePoint& face)
 {
     return {face.x / 0.55, face.y / (face.y > 0 ? 0.65 : 0.58)};
@@ -136,7 +136,7 @@ std::shared_ptr<const FittedPhotograph> make_fitted(const Wound& wound,
     return fit;
 }
 
-/// Whether it is done, and done badly.
+/// Whether the future is ready and holds an exception.
 template <typename T>
 bool failed(const std::shared_future<T>& future)
 {
@@ -163,16 +163,16 @@ void check_count(std::size_t all, std::size_t components, const std::string& nam
     if (all > std::size_t(shared::MAX_WOUNDS))
         throw base::InputError(
             name,
-            fmt::format("{} components of its mask, or wounds found in it, make more than {} in the scene",
+            fmt::format("with its {} wounds (components of the mask, or found) the scene has more than {}",
                         components, shared::MAX_WOUNDS),
-            "leave wounds out of the scene, or components out of the mask; without a mask, give a "
-            "rectangle or a seed");
+            "remove wounds from the scene or components from the mask; without a mask, give a rectangle or "
+            "a seed");
 }
 
 std::vector<head::Anchor> anchors_of(const Wound& wound, const FittedPhotograph& photograph,
                                      const LoadedHead& head, const std::string& name)
 {
-    const double scale = wound.width_mm / photograph.wound.width_mm; // it may be for another width
+    const double scale = wound.width_mm / photograph.wound.width_mm; // not 1 if fitted for another width
     std::vector<head::Anchor> anchors{head::anchor_wound(*head.model, *head.bvh, head.face, wound.place,
                                                          wound.width_mm / wound::wound_share, wound.roll_deg,
                                                          name + ": at")};
@@ -182,7 +182,7 @@ std::vector<head::Anchor> anchors_of(const Wound& wound, const FittedPhotograph&
             *head.model, *head.bvh, head.face, anchors.front(),
             1e-3 * scale * glm::dvec2(part.offset_mm.x, part.offset_mm.y),
             scale * part.width_mm / wound::wound_share,
-            fmt::format("{}: component {} of the mask, or of what was found without one", name, i + 1)));
+            fmt::format("{}: component {} of the mask or of the wounds found", name, i + 1)));
     }
     return anchors;
 }
@@ -191,10 +191,9 @@ std::shared_ptr<const LoadedHead> load_head(const std::filesystem::path& chosen)
 {
     const std::filesystem::path file = head_file(chosen);
     if (chosen.empty() && !std::filesystem::exists(file))
-        throw base::InputError(
-            file.string(), "the default head has not been made yet",
-            "make it once with cicatrix-fetch-head (from a checkout: ./run setup), or give one of your own "
-            "with --head FILE.glb");
+        throw base::InputError(file.string(), "the default head has not been made yet",
+                               "make it once with cicatrix-fetch-head (from a checkout: ./run setup), or "
+                               "give your own head with --head FILE.glb");
     auto head = std::make_shared<LoadedHead>();
     head->key = base::file_version(file);
     auto model = std::make_shared<head::Model>(head::load_model(file));
@@ -219,7 +218,7 @@ std::shared_ptr<const LoadedHead> WoundLoader::head(const std::filesystem::path&
     if (head_failed_ && head_job_key_ == key)
         std::rethrow_exception(std::exchange(head_failed_, nullptr));
     if (!head_job_.valid()) {
-        head_failed_ = nullptr; // another's
+        head_failed_ = nullptr; // drop the failure of another head
         head_job_key_ = key;
         head_job_ = std::async(std::launch::async, load_head, file);
     }

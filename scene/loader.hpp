@@ -1,5 +1,5 @@
-// The slow part of showing a scene, done by workers and remembered by what it was made from: heads read from
-// files, wounds prepared from photographs and fitted to the skin they lie on. Needs no device.
+// Loads the slow parts of a scene in worker threads and caches them by a hash of their inputs: heads read
+// from files, and wounds prepared from photographs and fitted to the skin. Needs no graphics device.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -18,15 +18,15 @@
 
 namespace scene {
 
-/// A head read from its file, the default one for an empty path.
+/// A head read from its file; the default head for an empty path.
 struct LoadedHead
 {
     std::shared_ptr<const head::Model> model;
-    std::shared_ptr<const head::Bvh> bvh; // of its solid triangles
+    std::shared_ptr<const head::Bvh> bvh; // of the model's solid triangles
     head::FaceFrame face;
-    std::uint32_t skin = 0; // material
+    std::uint32_t skin = 0; // index of the skin's material
     std::vector<std::string> notes;
-    std::string key; // file and time of its last change
+    std::string key; // base::file_version()
 };
 /// Throws base::InputError.
 std::shared_ptr<const LoadedHead> load_head(const std::filesystem::path& file);
@@ -39,7 +39,7 @@ struct FittedWound
     cv::Rect region; // wound::drawn_region
 };
 
-/// The wounds of one photograph; more than one when its mask has several components.
+/// The wounds of one photograph, one per component of its mask or per wound found.
 struct FittedPhotograph
 {
     struct Part // as in wound::WoundPart
@@ -47,49 +47,50 @@ struct FittedPhotograph
         cv::Point2d offset_mm;
         double width_mm;
     };
-    Wound wound; // as it was when this was made
+    Wound wound; // the scene's wound for which this was made
     std::vector<Part> layout;
     std::vector<FittedWound> wounds; // one per part
 };
 
-/// Where the wounds of a photograph lie when the scene's wound is as `wound` says: the first at its place,
-/// the others beside it. Throws base::InputError naming `name` when one is not on the head.
+/// Anchors of a photograph's wounds for the place, width and roll of `wound`: the first at its place, the
+/// others beside it. Throws base::InputError naming `name` if one is not on the head.
 std::vector<head::Anchor> anchors_of(const Wound& wound, const FittedPhotograph& photograph,
                                      const LoadedHead& head, const std::string& name);
 
-/// Throws base::InputError, naming the photograph, when its components bring the wounds of a scene to
-/// more than there may be.
+/// Throws base::InputError naming the photograph (`name`) if the scene has more than MAX_WOUNDS wounds: `all`
+/// so far, of which `components` belong to this photograph.
 void check_count(std::size_t all, std::size_t components, const std::string& name);
 
-/// Used by one thread at a time; its workers are its own. Destroying it waits for them.
+/// Use from one thread at a time; it owns its worker threads. The destructor waits for them.
 class WoundLoader
 {
   public:
-    /// The head, `current` if that is it, or null while it is being read. Throws the base::InputError by
-    /// which that has failed; asked for again, it is tried again.
+    /// The head (`current` if that is from this file), or null while a worker reads it. Throws the reading's
+    /// base::InputError once; the next call tries again.
     std::shared_ptr<const LoadedHead> head(const std::filesystem::path& file,
                                            const std::shared_ptr<const LoadedHead>& current);
-    /// A head that was read elsewhere.
+    /// Adds a head that was read elsewhere.
     void put(std::shared_ptr<const LoadedHead> head) { head_ = std::move(head); }
-    /// The wound's photograph fitted to the head, or null while it is being made. With `begin`, work on one
-    /// that is not ready is begun, if there is room; it must be asked for again when collect() returns true.
+    /// The wound's photograph fitted to the head, or null if it is not ready. `begin`: start work on it if
+    /// the number of jobs allows; call again after collect() has returned true. Throws the work's exception
+    /// once.
     std::shared_ptr<const FittedPhotograph> fitted(const Wound& wound, std::shared_ptr<const LoadedHead> head,
                                                    const std::string& name, bool begin = true);
-    /// Starts preparing the wound's photograph, for which no head is needed.
+    /// Starts preparing the wound's photograph, which needs no head.
     void begin(const Wound& wound, const std::string& name) { prepared(wound, name); }
 
-    /// Of the ready ones of the same photograph the one nearest in place and size; null when there is none.
+    /// The cached fit of the same photograph that is nearest in place and size; null if there is none.
     std::shared_ptr<const FittedPhotograph> similar(const Wound& wound, const head::FaceFrame& face) const;
 
-    /// Takes what the workers have finished; returns whether there was anything, be it a failure.
+    /// Takes finished results from the workers; returns whether there were any, including failures.
     bool collect();
-    /// Waits until one of them has finished; returns at once when none works.
+    /// Waits until a worker has finished; returns at once if none is running.
     void wait() const;
     bool busy() const { return !jobs_.empty() || head_job_.valid(); }
-    /// How often collect() has taken something: so that every stage that shares the loader sees it.
+    /// How often collect() has returned true, so that every user of a shared loader notices it.
     std::uint64_t news() const { return news_; }
 
-    struct Prepared; // what a photograph gives without a face
+    struct Prepared; // the part of the preparation that needs no head
 
   private:
     using SharedPrepared = std::shared_future<std::shared_ptr<const Prepared>>;
@@ -103,12 +104,12 @@ class WoundLoader
     {
         Key key, photograph;
         std::shared_ptr<const FittedPhotograph> fitted; // null: failed
-        std::exception_ptr failed;                      // for whoever asks next
+        std::exception_ptr failed;                      // thrown by the next fitted()
     };
     SharedPrepared prepared(const Wound& wound, const std::string& name);
 
-    std::list<std::pair<Key, SharedPrepared>> prepared_; // the last used first
-    std::list<Entry> fitted_;                            // the same
+    std::list<std::pair<Key, SharedPrepared>> prepared_; // most recently used first
+    std::list<Entry> fitted_;                            // most recently used first
     std::vector<Job> jobs_;
     std::shared_ptr<const LoadedHead> head_;
     std::future<std::shared_ptr<const LoadedHead>> head_job_;

@@ -1,5 +1,5 @@
-// A scene as a value: what is shown, from where, in which light, on which days. Its fields stand in one table
-// (scene/field_table.hpp); scene/file.hpp reads and writes it; docs/scene.md documents it.
+// A scene as a value: head, wounds, cameras, lights and days. scene/field_table.hpp defines its fields,
+// scene/file.hpp reads and writes it, docs/scene.md documents it.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -19,19 +19,19 @@ namespace scene {
 struct Wound
 {
     std::filesystem::path photo;           // empty: the default wound, generated from `kind` and `seed`
-    std::filesystem::path mask;            // empty: segmented
-    wound::SegmentationHints segmentation; // without a mask
+    std::filesystem::path mask;            // empty: the photo is segmented
+    wound::SegmentationHints segmentation; // used without a mask
     std::string kind = "abrasion";
     std::uint32_t seed = 3;
     head::Place place = std::string("cheek");
-    double width_mm = 30;    // of the wound along its longer side
+    double width_mm = 30;    // the wound's longer side
     double roll_deg = 0;     // counter-clockwise as the viewer sees it
-    double depth_factor = 1; // scales the tissue's depth
+    double depth_factor = 1; // factor on the thickness of the tissue's layers
     wound::Healing healing;
     bool operator==(const Wound&) const = default;
 };
 
-/// A place around the face's middle: 0, 0 is in front; positive azimuth towards the viewer's right, positive
+/// A direction from the face's middle: 0, 0 is in front; positive azimuth is to the viewer's right, positive
 /// elevation above.
 struct Direction
 {
@@ -42,7 +42,7 @@ struct Direction
 struct Light
 {
     Direction from;
-    double distance_m = 0.25; // from the face's middle; directional lights have none
+    double distance_m = 0.25; // from the face's middle; directional: used by the translucency term only
     bool directional = false;
     bool falloff = true;                  // inverse square; eq. (8) has none
     std::array<double, 3> color{1, 1, 1}; // linear
@@ -53,17 +53,17 @@ struct Light
 struct Camera
 {
     Direction from{18, 2};
-    double distance_m = 0;            // from the face's middle; 0: such that the head fills the picture
+    double distance_m = 0;            // from the target; 0: chosen so that the head fills the picture
     double fov_deg = 20;              // vertical
-    std::array<double, 3> target_m{}; // what it looks at, from the face's middle
+    std::array<double, 3> target_m{}; // point that the camera looks at, relative to the face's middle
     bool operator==(const Camera&) const = default;
 };
 
-/// A camera beside the scene's own, or the name of one that every scene has (scene/shots.hpp).
+/// An additional camera, or the name of a standard view (scene/shots.hpp).
 struct View
 {
-    std::string name; // letters, digits, - and _: it goes into names of files
-    std::optional<Camera> camera;
+    std::string name;             // letters, digits, - and _: becomes part of file names
+    std::optional<Camera> camera; // nullopt: `name` is a standard view
     bool operator==(const View&) const = default;
 };
 
@@ -77,23 +77,23 @@ struct Scene
     std::vector<Light> lights{{{-38, 28}, 0.9, false, true, {1.0, 0.96, 0.91}, 1.25},
                               {{60, 10}, 1.2, false, true, {0.86, 0.92, 1.0}, 0.4}};
     Camera camera;
-    std::vector<View> views; // what `capture` shows; empty: `camera` alone
+    std::vector<View> views; // views that `capture` draws; empty: `camera` only
     std::array<std::uint32_t, 2> size{1280, 720};
     std::uint32_t samples = 1; // 1 or 4
-    double exposure_stops = 0; // each doubles the light
+    double exposure_stops = 0; // each stop doubles the light
     std::vector<double> days{0, 3, 6, 9, 12, 15, 18, 21, 24, 27, 30};
     bool operator==(const Scene&) const = default;
 };
 
-/// "wound 2", or the photograph's path: how messages name it.
+/// The wound's name in messages: the photograph's path, or for example "wound 2".
 std::string name_of(const Wound& wound, std::size_t index);
 
-/// Everything as the paper prints it: equations, contraction alone, one light without falloff, no shadow, no
-/// ambient light.
+/// Sets everything as in the paper: its equations, Table 1, contraction alone, one light without falloff, no
+/// shadow, no ambient light.
 void make_published(Scene& scene);
 
-/// What read_scene() checks in a file, for scenes that were made otherwise: the user interface may set
-/// anything. Throws base::InputError.
+/// Checks a scene that was not read by read_scene(), for instance one edited in the window: counts of days,
+/// wounds and lights, and ranges of the healing curves. Throws base::InputError.
 void check(const Scene& scene);
 
 } // namespace scene

@@ -29,7 +29,7 @@ constexpr std::array<StandardView, 7> around_the_head{{
     {"below", {0, -40}, "the face from below"},
 }};
 
-/// Turns a camera that looks at the face about the head's middle, so that the head stays in the picture.
+/// Rotates a camera about the head's middle, so that the head stays in the picture.
 head::Camera turned(const LoadedScene& loaded, const head::Camera& camera, const Direction& by)
 {
     if (by.azimuth_deg == 0 && by.elevation_deg == 0)
@@ -43,7 +43,7 @@ head::Camera turned(const LoadedScene& loaded, const head::Camera& camera, const
     return {about(camera.eye), about(camera.target), camera.fov_deg};
 }
 
-/// The names that can be asked for in this scene.
+/// All names of views in this scene.
 std::vector<std::string> known_views(const Scene& scene)
 {
     std::vector<std::string> known;
@@ -57,7 +57,7 @@ std::vector<std::string> known_views(const Scene& scene)
     return known;
 }
 
-/// `name` is one of known_views().
+/// The camera of a view; `name` is one of known_views().
 head::Camera camera_of_view(const LoadedScene& loaded, const std::string& name)
 {
     const Scene& scene = loaded.scene;
@@ -87,7 +87,7 @@ std::vector<std::pair<std::string, std::string>> standard_views()
     std::vector<std::pair<std::string, std::string>> views{{"camera", "the scene's own camera"}};
     for (const StandardView& view : around_the_head)
         views.emplace_back(view.name, view.shows);
-    views.emplace_back("close-up", "the first wound, large; close-up-2 the second, and so on");
+    views.emplace_back("close-up", "the first wound from close by; close-up-2 the second, and so on");
     return views;
 }
 

@@ -10,7 +10,7 @@ namespace wound {
 
 namespace {
 
-/// Lengths along a closed polyline: of every vertex, and the whole.
+/// Arc length along a closed polyline: at every vertex, and in total.
 struct ArcLength
 {
     std::vector<double> at;
@@ -51,7 +51,7 @@ void add_crossings(const Polyline& curve, const ArcLength& arc, double cv::Point
     }
 }
 
-/// Runs of crossings closer than `nearest` become their middle, on a closed curve.
+/// Merges runs of crossings of a closed curve that are closer than `nearest` into their middle.
 std::vector<double> merge_near(std::vector<double> lengths, double total, double nearest)
 {
     std::sort(lengths.begin(), lengths.end());
@@ -73,7 +73,7 @@ std::vector<double> merge_near(std::vector<double> lengths, double total, double
     double first = lengths.front();
     double last = first;
     for (std::size_t i = 1; i <= lengths.size(); ++i) {
-        // A run also ends when it has grown as long as the distance that separates points.
+        // A run also ends when it is 2 * nearest long.
         if (i < lengths.size() && lengths[i] - last < nearest && lengths[i] - first < 2 * nearest) {
             last = lengths[i];
             continue;
@@ -105,8 +105,8 @@ double distance_to_segment(cv::Point2d p, cv::Point2d a, cv::Point2d b)
     return cv::norm(p - a - t * along);
 }
 
-/// The farthest that the border strays from the closed polygon of its control points.
-double straying(const Polyline& border, const Polyline& points)
+/// The largest distance of the border from the closed polygon of its control points.
+double largest_deviation(const Polyline& border, const Polyline& points)
 {
     double farthest = 0;
     for (cv::Point2d p : border) {
@@ -131,7 +131,7 @@ double widest_extent(const Polyline& border)
 
 std::vector<Polyline> level_curves(const cv::Mat1f& coverage, float level)
 {
-    // Cells lie between texel centres, one ring of zeros around. An edge of the lattice is named by its low
+    // Cells lie between texel centres, with a ring of zeros around them. A lattice edge is named by its low
     // end and direction.
     const int width = coverage.cols + 2;
     const auto value = [&](int x, int y) {
@@ -146,8 +146,7 @@ std::vector<Polyline> level_curves(const cv::Mat1f& coverage, float level)
         const double column = x - 1 + (direction == 0 ? t : 0), row = y - 1 + (direction == 1 ? t : 0);
         return cv::Point2d((column + .5) * 2 / coverage.cols - 1, (row + .5) * 2 / coverage.rows - 1);
     };
-    // Within each cell the curve runs from one crossed edge to another with the inside on its left as seen on
-    // screen.
+    // In each cell the curve runs from one crossed edge to another, with the inside on its left on screen.
     std::unordered_map<int, int> next;
     for (int y = 0; y <= coverage.rows; ++y)
         for (int x = 0; x < width - 1; ++x) {
@@ -157,9 +156,8 @@ std::vector<Polyline> level_curves(const cv::Mat1f& coverage, float level)
                       right = edge_name(x + 1, y, 1);
             const std::array<std::array<int, 3>, 4> sides{
                 {{top, tl, tr}, {right, tr, br}, {bottom, br, bl}, {left, bl, tl}}};
-            // Clockwise around the cell, a side that goes from outside to inside is where the curve leaves;
-            // the next side (again clockwise) that goes from inside to outside is where it enters. This also
-            // separates the two inside corners of a saddle.
+            // Clockwise around the cell, `next` links a side from outside to inside to the following side
+            // from inside to outside. This also separates the two inside corners of a saddle.
             for (int i = 0; i < 4; ++i)
                 if (sides[i][1] == 0 && sides[i][2] == 1)
                     for (int k = 1; k < 4; ++k)
@@ -171,7 +169,7 @@ std::vector<Polyline> level_curves(const cv::Mat1f& coverage, float level)
     std::vector<int> starts;
     for (const auto& [from, to] : next)
         starts.push_back(from);
-    std::sort(starts.begin(), starts.end()); // the same curves in the same order on every machine
+    std::sort(starts.begin(), starts.end()); // gives the same order of curves on every machine
     std::vector<Polyline> curves;
     for (int start : starts) {
         Polyline curve;
@@ -225,9 +223,9 @@ Polyline control_points(const Polyline& border, cv::Point2d centroid, double spa
 {
     CV_Assert(border.size() >= 3 && spacing > 0);
     spacing = std::max(spacing, widest_extent(border) /
-                                    most_control_points); // finer lines would only be thinned out again
+                                    most_control_points); // a finer spacing would give too many points
     Polyline points = crossings(border, centroid, spacing);
-    constexpr int tries = 40; // each changes the spacing by a quarter; more would be another shape
+    constexpr int tries = 40; // each changes the spacing by a fifth or a quarter
     for (int i = 0; i < tries && static_cast<int>(points.size()) < fewest_control_points; ++i)
         points = crossings(border, centroid, spacing *= .8);
     for (int i = 0; i<tries&& static_cast<int>(points.size())> most_control_points; ++i)
@@ -240,7 +238,7 @@ double spacing_from_curvature(const Polyline& border, cv::Point2d centroid, doub
     const double allowed = tolerance * std::sqrt(std::abs(signed_area(border)));
     double spacing = widest_extent(border) / 12;
     for (const double finest = spacing / 4; spacing > finest; spacing *= .8)
-        if (straying(border, control_points(border, centroid, spacing)) <= allowed)
+        if (largest_deviation(border, control_points(border, centroid, spacing)) <= allowed)
             break;
     return spacing;
 }

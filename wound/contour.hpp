@@ -8,11 +8,11 @@ namespace wound {
 
 using Polyline = std::vector<cv::Point2d>; // closed: the last point is joined to the first
 
-/// Coverage 0..1 to the .5 level set, by marching squares: every closed curve, subpixel, counter-clockwise as
-/// seen on screen around what is inside. Pixels outside the mask count as 0.
+/// The level set of a coverage map 0..1 by marching squares: all closed curves, subpixel, counter-clockwise
+/// on screen around regions above `level`. Pixels outside the map count as 0.
 std::vector<Polyline> level_curves(const cv::Mat1f& coverage, float level = .5F);
 
-/// The outer border of the largest component: the level curve of the largest area.
+/// The outer border of the largest component: the level curve that encloses the largest area.
 Polyline border_of(const cv::Mat1f& coverage);
 
 /// Enclosed area, positive for a counter-clockwise curve on screen.
@@ -23,22 +23,21 @@ struct Moments
     double area = 0; // patch units squared
     cv::Point2d centroid;
 };
-/// Centroid by the first moments of the coverage (Sonka, Hlavac, Boyle 1998), which an antialiased mask makes
-/// subpixel.
+/// Area and centroid from the moments of the coverage (Sonka, Hlavac, Boyle 1998); subpixel for an
+/// antialiased mask.
 Moments moments_of(const cv::Mat1f& coverage);
 
 inline constexpr int fewest_control_points = 8;
 inline constexpr int most_control_points = 512;
 
-/// Where lines x = centroid.x + k spacing and y = centroid.y + k spacing cross the border, in order along it.
-/// Crossings nearer than a quarter of the spacing along the border become one, in their middle. The spacing
-/// shrinks until there are at least fewest_control_points, and grows until there are at most
-/// most_control_points.
+/// Points where the lines x = centroid.x + k spacing and y = centroid.y + k spacing cross the border, in
+/// order along it. Crossings nearer than a quarter of the spacing along the border are merged into their
+/// middle. The spacing is adjusted until there are fewest_control_points to most_control_points points.
 Polyline control_points(const Polyline& border, cv::Point2d centroid, double spacing);
 
-/// The widest spacing at which straight lines between the control points stray from the border by at most
-/// `tolerance` of the square root of the area it encloses: narrow on a strongly curved border, wide on a
-/// smooth one. Between a 48th and a 12th of the wound's extent.
+/// The widest spacing at which the polygon of control points deviates from the border by at most `tolerance`
+/// times the square root of the enclosed area: narrow for a strongly curved border, wide for a smooth one.
+/// From 1/48 to 1/12 of the wound's extent.
 double spacing_from_curvature(const Polyline& border, cv::Point2d centroid, double tolerance = .012);
 
 } // namespace wound

@@ -14,13 +14,13 @@ namespace wound {
 namespace {
 
 constexpr double occlusion_reach_mm = 4;
-constexpr double soft_edge_mips = 3.5; // new skin ends softly: blurred by about a millimetre
+constexpr double soft_edge_mips = 3.5; // blurs the border of new skin by about 1 mm
 
-/// Where a point of today lay on day 0.
+/// The day-0 position of a point of today.
 struct Origin
 {
     cv::Point2d uv;
-    double mip; // contraction squeezes several day-0 texels into one of today's; this level holds them
+    double mip; // mip level for the several day-0 texels that contraction squeezes into one of today's
 };
 
 Origin origin_of(cv::Point2d today, const Warp& warp)
@@ -67,13 +67,13 @@ class Warping
 
   private:
     const WoundDay& today_;
-    bool bed_apart_; // the bed closes inside the border by a warp of its own
+    bool bed_apart_; // the bed has another warp than the border
     double bed_luminance_;
     std::vector<cv::Mat> color_, shape_; // of day 0, with mip levels
 };
 
-/// Horizon-based occlusion over six directions: how far the walls stand up around a point. cos^2 of the
-/// horizon's elevation is the cosine-weighted share of the sky that a direction's slice still sees.
+/// Horizon-based ambient occlusion over six directions, 1 open. cos^2 of the horizon's elevation is the
+/// cosine-weighted share of the sky that is visible in a direction's slice.
 double openness(const cv::Mat1f& depth_mm, cv::Point at, const shared::Relief& relief)
 {
     constexpr int directions = 6, steps = 4;

@@ -1,6 +1,6 @@
-// A wound's maps of a day on the CPU, for whoever draws or measures wounds without a graphics device: where
-// the skin of day 0 lies today, what tissue it is, and the relief of the hollow. The twin of
-// shaders/wound_texture.comp and shaders/wound_relief.comp; a test compares the two.
+// A wound's maps of a day on the CPU, for drawing or measuring wounds without a graphics device: warped
+// colour, depth and coverage of bed and border, and relief. The reference for shaders/wound_texture.comp and
+// shaders/wound_relief.comp; a test compares them.
 //
 //   const DayMaps maps = maps_on(prepared, wound_at(prepared, healing, 9), drawn_region(prepared, healing));
 //   const MapSample here = sample(maps, {.1, -.05});
@@ -12,30 +12,30 @@
 
 namespace wound {
 
-/// Day 0 as shaders and maps_on() read it. Color: rgb linear reflectance, a opacity. Shape: depth in mm,
-/// coverage of the mask.
+/// Day 0's maps as read by shaders and maps_on(). Color: rgb linear reflectance, a opacity. Shape: depth in
+/// mm, coverage of the mask.
 cv::Mat4f day0_color(const Patch& patch);
 cv::Mat2f day0_shape(const Patch& patch);
 
-/// What decides today's relief, for texels `texel_mm` wide.
+/// Parameters of today's relief, for texels `texel_mm` wide.
 shared::Relief relief_parameters(const WoundDay& today, double texel_mm);
 
-/// Today's maps of a region of the patch; nothing of the wound is seen outside it.
+/// Today's maps of a region of the patch that contains everything visible of the wound.
 struct DayMaps
 {
     cv::Rect region;    // texels of the patch
     int patch_size = 0; // texels a side
-    cv::Mat4f color;    // rgb: linear reflectance W; a: opacity, 0 the face's own skin
-    cv::Mat4f state;    // day 0's depth in mm, 0: of the open bed's hollow, 1: of the injury inside the outer
-                        // border; 2: coverage of the open bed; 3: coverage inside the border
-    cv::Mat4f relief;   // 0, 1: slope of the depth along u and v, mm per mm; 2: occlusion of the hollow, 1
-                        // open; 3: depth today in mm
+    cv::Mat4f color;    // rgb: linear reflectance W; a: opacity, 0 on the face's own skin
+    cv::Mat4f state;    // channels 0, 1: day 0's depth in mm, warped with the open bed and with the border;
+                        // 2: coverage of the open bed; 3: coverage inside the border
+    cv::Mat4f relief;   // channels 0, 1: slope of the depth along u and v, mm per mm; 2: ambient occlusion, 1
+                        // is open; 3: today's depth in mm
 
     /// Texture coordinates in the maps: 0..1 within the region.
     cv::Point2d uv(cv::Point2d patch_point) const;
 };
 
-/// `today` is a day of this wound. `region`: drawn_region(), or the whole patch. All cores work.
+/// `today` is a day of this wound. `region`: drawn_region(), or the whole patch. Uses all cores.
 DayMaps maps_on(const PreparedWound& wound, const WoundDay& today, cv::Rect region);
 
 struct MapSample
@@ -43,8 +43,8 @@ struct MapSample
     cv::Vec4d color{0, 0, 0, 0}, state{0, 0, 0, 0}, relief{0, 0, 1, 0};
 };
 
-/// The maps at a point of the patch; outside the region no wound. `footprint`: a quarter of the way across a
-/// pixel, in patch coordinates, by which the rasteriser blurs; 0 for a ray.
+/// The maps at a point of the patch; the default sample outside the region. `footprint`: a quarter of a
+/// pixel's extent in patch coordinates, by which the rasteriser blurs; 0 for a ray.
 MapSample sample(const DayMaps& maps, cv::Point2d patch_point, cv::Point2d footprint = {});
 
 } // namespace wound

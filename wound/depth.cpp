@@ -40,7 +40,7 @@ const Site face_sites[] = {
     {{0, -.50}, 1.2, 12},   // lower lip
     {{0, -.75}, 1.5, 11},   // chin
 };
-constexpr double thickest_subcutis = 9; // mm, Table 1; what lies deeper is muscle
+constexpr double thickest_subcutis = 9; // mm, Table 1; deeper tissue is muscle
 
 cv::Vec3f masked_mean(const cv::Mat3f& image, const cv::Mat1b& where)
 {
@@ -53,7 +53,7 @@ double hue_deg(const cv::Vec3f& lab)
     return std::atan2(lab[2], lab[1]) * 180 / std::numbers::pi;
 }
 
-/// Blur of `values` that sees only pixels inside `weight`.
+/// Gaussian blur of `values`, weighted by `weight`.
 cv::Mat1f blur_inside(const cv::Mat1f& values, const cv::Mat1f& weight, double sigma)
 {
     cv::Mat1f sum, mass;
@@ -71,8 +71,7 @@ TissueThickness tissue_thickness(cv::Point2d face)
     double weights = 0, dermis = 0, soft = 0;
     for (const Site& site : face_sites) {
         const cv::Point2d offset = place - site.face;
-        // Inverse powers rather than Gaussians: far from every site the nearest ones still decide, without
-        // 0/0.
+        // Inverse powers instead of Gaussians: far from every site the weights do not underflow to 0/0.
         const double squared = offset.dot(offset) / (reach * reach);
         const double weight = 1 / ((1 + squared) * (1 + squared) * (1 + squared));
         weights += weight;
@@ -87,9 +86,8 @@ TissueThickness tissue_thickness(cv::Point2d face)
 
 double layer_reached(const cv::Vec3f& lab, const cv::Vec3f& skin)
 {
-    // The dermis shows by its blood: the hue turns from the skin's yellowish towards red, the colour grows
-    // more saturated. Fat shows yellower than skin; dried or deep tissue much darker. Skin itself scatters by
-    // about 5 CIELAB units.
+    // Blood makes the dermis redder and more saturated than the yellowish skin. Fat is yellower than skin;
+    // dried or deep tissue is much darker. Skin colour varies by about 5 CIELAB units.
     const double difference = cv::norm(lab - skin);
     const double exposed = base::smoothstep(5, 14, difference); // 0: epidermis intact
     const double redder = base::smoothstep(4, 30, double(lab[1] - skin[1]));
@@ -114,7 +112,7 @@ cv::Mat1f depth_map(const cv::Mat3f& color, const cv::Mat1f& mask, double width_
     cv::distanceTransform(inside, inward, cv::DIST_L2, cv::DIST_MASK_PRECISE);
     const double extent = std::sqrt(static_cast<double>(cv::countNonZero(inside))); // texels
 
-    // Healthy skin: a band well off the border, where no rim is swollen.
+    // Healthy skin: a band outside the swollen rim.
     const cv::Mat1b band = (outward > .15 * extent) & (outward < .5 * extent);
     const cv::Vec3f skin = masked_mean(lab, band);
     const TissueThickness& tissue = options.tissue;
@@ -127,9 +125,9 @@ cv::Mat1f depth_map(const cv::Mat3f& color, const cv::Mat1f& mask, double width_
     });
     cv::Mat1f weight;
     inside.convertTo(weight, CV_32F, 1 / 255.);
-    depth = blur_inside(depth, weight, std::max(.14 * extent, 1.)); // clot and fibrin lie on one floor
+    depth = blur_inside(depth, weight, std::max(.14 * extent, 1.)); // one floor under clot and fibrin
 
-    const double wall_mm = std::min(.8, .08 * extent * texel_mm); // an excision's wall, nearly upright
+    const double wall_mm = std::min(.8, .08 * extent * texel_mm); // width of a steep wall, as of an excision
     const double rim_mm = std::max(.12 * extent * texel_mm, 2 * texel_mm);
     for (int j = 0; j < depth.rows; ++j)
         for (int i = 0; i < depth.cols; ++i) {

@@ -1,6 +1,6 @@
-// How deep a wound is: the layer of skin its hue shows, times how thick that layer is at its place on the
-// face. Lee, Lee, Chin 2011, "Multi-layer structural wound synthesis on 3D face" (hue -> layer); Choi & Chin
-// 2014, Table 1 and Fig. 5.
+// Estimates a wound's depth from the skin layer that its hue shows and the layers' thickness at its place on
+// the face. Lee, Lee, Chin 2011, "Multi-layer structural wound synthesis on 3D face" (hue -> layer); Choi &
+// Chin 2014, Table 1 and Fig. 5.
 #pragma once
 #include <opencv2/core.hpp>
 #include <vector>
@@ -16,13 +16,13 @@ struct TissueThickness
     bool operator==(const TissueThickness&) const = default;
 };
 
-/// At a place on the face in face coordinates: x from -1 (the right ear, left in a portrait) over 0 (the
+/// Thickness at a place in face coordinates: x from -1 (the right ear, left in a portrait) over 0 (the
 /// midline) to 1, y from -1 (the chin's underside) over 0 (the tip of the nose) to 1 (the hairline). Smooth
-/// in between and beyond, from the sites in depth.cpp, which is symmetric about the midline.
+/// interpolation of the sites in depth.cpp, symmetric about the midline.
 TissueThickness tissue_thickness(cv::Point2d face);
 
-/// Which layer a pixel's hue shows: 0..1 within the epidermis, 1..2 within the dermis, 2..3 within the
-/// subcutis, continuously. `skin` is the mean colour of the photograph's own healthy skin; both are CIELAB.
+/// The layer that a pixel's hue shows, continuous: 0..1 within the epidermis, 1..2 within the dermis, 2..3
+/// within the subcutis. `skin` is the mean colour of the photograph's healthy skin; both are CIELAB.
 double layer_reached(const cv::Vec3f& lab, const cv::Vec3f& skin);
 
 struct DepthOptions
@@ -31,14 +31,14 @@ struct DepthOptions
     double rim_swelling_mm = .3; // height of the swollen rim just outside the border
 };
 
-/// Tissue missing, mm, of the size of `mask`: floor smoothed, walls steep inside the border, a swollen rim
-/// (negative) outside it and 0 farther away. `color` is linear RGB, `mask` coverage 0..1 and `width_mm` the
-/// side of both.
+/// Depth of missing tissue in mm, of the size of `mask`: smooth floor, steep walls inside the border, a
+/// swollen rim (negative) outside it and 0 farther away. `color` is linear RGB, `mask` coverage 0..1; both
+/// are `width_mm` wide.
 cv::Mat1f depth_map(const cv::Mat3f& color, const cv::Mat1f& mask, double width_mm,
                     const DepthOptions& options);
 
-/// Depth along the horizontal line through `at` (patch coordinates), as in the paper's Figure 5; one value
-/// per texel.
+/// Depth in mm along the horizontal line through `at` (patch coordinates), one value per texel; as in the
+/// paper's Figure 5.
 std::vector<double> depth_profile(const cv::Mat1f& depth_mm, cv::Point2d at);
 
 } // namespace wound

@@ -9,7 +9,7 @@ namespace wound {
 namespace {
 
 constexpr double margin =
-    2; // texels: bilinear sampling, and the quarter texel by which the warps' models differ
+    2; // texels, for bilinear sampling and the difference of a quarter texel between the warp models
 
 /// Smallest and largest ratio of the area inside the border over all days.
 std::pair<double, double> border_ratios(const Healing& healing)
@@ -23,20 +23,19 @@ std::pair<double, double> border_ratios(const Healing& healing)
     return {least, largest};
 }
 
-/// Whether any texel on the rectangle's outline shows something of day 0 under the warp. The warp is a
-/// homeomorphism of the patch that keeps its frame, so when the outline shows nothing, nothing outside it
-/// does.
+/// Whether any texel on the rectangle's outline is opaque under the warp. The warp is a homeomorphism of the
+/// patch that fixes its frame, so if no texel on the outline is opaque, none outside it is.
 bool outline_shows(const cv::Rect& region, const Warp& warp, const cv::Mat1f& to_opaque)
 {
     const int n = to_opaque.rows;
     const auto shows = [&](int x, int y) {
         const cv::Point2d today((x + .5) * 2 / n - 1, (y + .5) * 2 / n - 1), day0 = warp.apply(today);
-        // The shader blurs where many texels of day 0 meet in one of today's.
+        // The shader blurs where the warp compresses many day-0 texels into one.
         const double blur = std::max(1., cv::norm(day0 - warp.centroid) / cv::norm(today - warp.centroid));
         const auto texel = [&](double t) { return std::clamp(int((t + 1) * n / 2), 0, n - 1); };
         return to_opaque(texel(day0.y), texel(day0.x)) < margin * blur;
     };
-    constexpr int step = 4; // texels; the map is smooth out here
+    constexpr int step = 4; // texels; the map is smooth away from the wound
     for (int x = region.x; x < region.br().x; x += step)
         if ((region.y > 0 && shows(x, region.y)) || (region.br().y < n && shows(x, region.br().y - 1)))
             return true;
@@ -62,8 +61,8 @@ cv::Rect drawn_region(const PreparedWound& wound, const Healing& healing)
         return {patch.width / 2, patch.height / 2, 1, 1};
 
     const auto [least, largest] = border_ratios(healing);
-    constexpr double finer = .75; // between the ratios that are looked at
-    for (double ratio = largest;; ratio = std::max(least, finer * ratio)) {
+    constexpr double ratio_step = .75; // factor between the ratios that are tested
+    for (double ratio = largest;; ratio = std::max(least, ratio_step * ratio)) {
         const Warp warp = make_warp(wound.flow, ratio, WarpModel::Composed);
         while (region != patch && outline_shows(region, warp, to_opaque))
             region = grown(region, std::max(1, patch.width / 64));

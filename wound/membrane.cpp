@@ -10,7 +10,7 @@ namespace {
 constexpr int coarsest = 4, sweeps = 14;
 constexpr float overshoot = 1.5f; // successive over-relaxation; 1 is plain Gauss-Seidel
 
-/// One sweep in place; neighbours beyond the edge do not exist (Neumann).
+/// One sweep in place, with Neumann boundary conditions.
 void relax(cv::Mat3f& m, const cv::Mat3f& data, const cv::Mat1f& weight)
 {
     const int n = m.rows;
@@ -40,7 +40,7 @@ cv::Vec3f weighted_mean(const cv::Mat3f& data, const cv::Mat1f& weight)
             sum += data(y, x) * weight(y, x);
             total += weight(y, x);
         }
-    return total > 1e-9f ? sum * (1 / total) : cv::Vec3f::all(0); // the reciprocal of a denormal is infinite
+    return total > 1e-9f ? sum * (1 / total) : cv::Vec3f::all(0); // a denormal's reciprocal is infinite
 }
 
 } // namespace
@@ -52,7 +52,7 @@ cv::Mat3f membrane(const cv::Mat3f& data, const cv::Mat1f& weight)
     if (n <= coarsest)
         m = cv::Mat3f(n, n, weighted_mean(data, weight));
     else {
-        // Halving the grid keeps the gradient term as it is and adds up the weights of four cells.
+        // Halving the grid leaves the gradient term unchanged and sums the weights of four cells.
         cv::Mat3f half_data(n / 2, n / 2);
         cv::Mat1f half_weight(n / 2, n / 2);
         for (int y = 0; y < n / 2; ++y)

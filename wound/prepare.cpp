@@ -21,8 +21,8 @@ cv::Vec3f mean_of(const cv::Mat3f& color, const cv::Mat1b& where)
     return {static_cast<float>(mean[0]), static_cast<float>(mean[1]), static_cast<float>(mean[2])};
 }
 
-/// Fills what is not part of the picture with the mean of nearby skin, or with `mean` far from any, so that
-/// no black, nor the red of a wound that the picture's edge cuts, leaks into blurred or pulled skin.
+/// Fills texels outside the picture with the mean of nearby skin, or with `mean` far from skin. Otherwise
+/// black, or the red of a wound at the picture's edge, would leak into blurred or stretched skin.
 void fill_outside(cv::Mat3f& color, const cv::Mat1f& picture, const cv::Mat1f& skin, const cv::Vec3f& mean)
 {
     cv::Mat3f weight, sum;
@@ -38,8 +38,7 @@ void fill_outside(cv::Mat3f& color, const cv::Mat1f& picture, const cv::Mat1f& s
         }
 }
 
-/// 1 in the wound and close around it, falling to 0 within the surrounding skin and well inside the patch's
-/// frame.
+/// 1 in the wound and close to it, falling to 0 in the surrounding skin, well inside the patch's frame.
 cv::Mat1f first_opacity(const cv::Mat1f& mask, const cv::Mat1f& picture)
 {
     cv::Mat1f outward, to_gap;
@@ -53,16 +52,16 @@ cv::Mat1f first_opacity(const cv::Mat1f& mask, const cv::Mat1f& picture)
                         y = (static_cast<float>(j) + .5F) * unit - 1;
             const float skin = 1 - base::smoothstep(.02F, .32F, outward(j, i) * unit);
             const float frame = 1 - base::smoothstep(.7F, .92F, std::max(std::abs(x), std::abs(y)));
-            // Skin fades towards the picture's edge; a wound cut by it ends there, as at any other border.
+            // Skin fades towards the picture's edge; a wound cut by the edge does not.
             opacity(j, i) =
                 skin * frame * std::max(base::smoothstep(0, .1F, to_gap(j, i) * unit), mask(j, i));
         }
     cv::GaussianBlur(opacity, opacity, {},
-                     mask.cols / 100.); // distances crease along the border's concavities
+                     mask.cols / 100.); // smooths the creases of the distance at the border's concavities
     return opacity;
 }
 
-/// 0 in a wound, 1 beyond what is red beside it.
+/// 0 in a wound, rising to 1 at 2 % of the patch's side from it, beyond the red rim.
 cv::Mat1f away_from(const cv::Mat1f& mask)
 {
     cv::Mat1f distance;
@@ -70,8 +69,8 @@ cv::Mat1f away_from(const cv::Mat1f& mask)
     return cv::min(distance / (.02 * mask.cols), 1);
 }
 
-/// Another wound of the photograph is no part of this one's picture: nearby skin stands in its place, and the
-/// opacity is shared by the distance to either.
+/// Replaces other wounds of the photograph by nearby skin, and scales the opacity between the wounds by the
+/// distance to each.
 void leave_out(Patch& patch, const cv::Mat1f& others)
 {
     cv::Mat1f to_own, to_others;
@@ -99,7 +98,7 @@ struct Resampling
     cv::Mat operator()(cv::Mat image, int border) const
     {
         if (pixels_per_texel > 1) {
-            cv::Mat smooth; // or fine detail would alias
+            cv::Mat smooth; // prevents aliasing of fine detail
             cv::GaussianBlur(image, smooth, {}, .5 * pixels_per_texel);
             image = smooth;
         }
@@ -110,13 +109,13 @@ struct Resampling
     }
 };
 
-/// Antialiased coverage over about two texels: a binary mask's stairs are smoothed at photo resolution, then
-/// the edge is steepened.
+/// Coverage with an edge about two texels wide: the binary mask is blurred at photo resolution, then the edge
+/// is steepened.
 cv::Mat1f resample_mask(const cv::Mat1b& mask, const Resampling& resample)
 {
     cv::Mat1f coverage;
     mask.convertTo(coverage, CV_32F, 1 / 255.);
-    // Less where the wound is but a few pixels wide: it would grow by the smoothing.
+    // Blur less if the wound is only a few pixels wide, because blurring would enlarge it.
     cv::Mat1f inward;
     cv::distanceTransform(mask > 127, inward, cv::DIST_L2, cv::DIST_MASK_PRECISE);
     double half_width = 0;
@@ -125,7 +124,7 @@ cv::Mat1f resample_mask(const cv::Mat1b& mask, const Resampling& resample)
     cv::Mat1f soft = resample(coverage, cv::BORDER_CONSTANT);
     const double gain = std::max(1 / resample.pixels_per_texel, 1.);
     cv::Mat1f sharp = cv::min(cv::max((soft - .5F) * gain + .5F, 0), 1);
-    // A speck of a few pixels is lowered by the smoothing: its own peak is the reference then.
+    // Blurring lowers the peak of a wound of a few pixels, so normalise by that peak.
     double peak = 0;
     cv::minMaxLoc(soft, nullptr, &peak);
     if (peak > 0 && peak < .98)
@@ -148,7 +147,7 @@ PhotoFrame photo_frame(const cv::Mat1b& mask)
             std::max(bounds.width, bounds.height) / wound_share};
 }
 
-/// Checked. Of a full one what the picture's black surroundings leave.
+/// The checked mask; if it is full, the largest component of picture_area().
 cv::Mat1b day0_mask(const Photograph& photograph, const Preparation& preparation)
 {
     const cv::Mat1b mask = checked_mask(photograph.mask, photograph.srgb.size(), preparation.where);
@@ -181,7 +180,7 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
     const cv::Mat1b mask = day0_mask(photograph, preparation);
     const auto [centroid, side] = photo_frame(mask);
 
-    // A photograph much finer than the patch is made coarser first: its linear colours would need gigabytes.
+    // Shrink a photograph much finer than the patch: its linear colours would need gigabytes.
     constexpr double finest = 4; // pixels per texel
     const double shrink = std::min(1., finest * preparation.patch_size / side);
     cv::Mat3b srgb = photograph.srgb;
@@ -292,14 +291,13 @@ WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day
     result.recovery_ratio = state.recovery_ratio;
     result.depth_scale = state.depth_scale;
     result.bed_recovery = result.border_recovery =
-        state.recovery_ratio; // the paper's: one r for all of the wound
+        state.recovery_ratio; // as in the paper: one r for the whole wound
     if (healing.model == HealingModel::Face) {
-        // The open bed stays a wound until new epithelium covers it; that is pink, and a quarter of the
-        // way to skin when the wound closes.
+        // The open bed hardly recovers; the pink new epithelium has recovered by 25 % when the wound closes.
         result.bed_recovery = 0.12 * state.recovery_ratio;
         result.border_recovery = 0.25 * state.recovery_ratio;
         if (const ScarState scar = scar_at(healing, day);
-            scar.months > 0) // the rest of the way goes with the scar's redness
+            scar.months > 0) // after closure the rest follows the scar's redness
             result.border_recovery = 1 - (1 - result.border_recovery) * scar.redness / scar_after(0).redness;
         result.border_softness = std::min(5 * state.recovery_ratio, 1.);
         result.in_phases = true;

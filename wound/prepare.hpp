@@ -1,5 +1,4 @@
-// From a photograph to everything that is computed once per wound, and from there to any day
-// (wound/wound.hpp).
+// Computes a wound's data from a photograph, once, and from those its state on any day (wound/wound.hpp).
 #pragma once
 #include <string>
 #include <vector>
@@ -18,9 +17,8 @@ struct Preparation
     std::string where = "photograph"; // names the photograph in error messages
     double width_mm = 30;             // of the wound's longer side, on the head; 0.5..200
     int patch_size = 512;             // texels a side
-    SegmentationHints hints;          // when the photograph has no mask
-    double control_spacing =
-        0; // of the lines that give control points, patch units; 0: from the border's curvature
+    SegmentationHints hints;          // used if the photograph has no mask
+    double control_spacing = 0;       // of control_points(), patch units; 0: spacing_from_curvature()
     DepthOptions depth;
 };
 
@@ -29,27 +27,26 @@ struct Preparation
 /// photograph's own; match_to_skin() fits it to a face. Throws base::InputError.
 PreparedWound prepare(const Photograph& photograph, const Preparation& preparation);
 
-/// One of the wounds of a photograph, and how it lies there.
+/// One of the wounds of a photograph, and its position there.
 struct WoundPart
 {
     Photograph photograph; // mask: this wound alone
     double width_mm = 30;
-    cv::Point2d offset_mm; // of its centroid from the largest one's; x right, y down
+    cv::Point2d offset_mm; // from the largest wound's centroid to this one's; x right, y down
 };
 
-/// The wounds of a photograph, the largest first, each with its mask: the components of the given one, or of
-/// what segment() finds. All are at the scale that `preparation.width_mm`, the largest one's, gives. Throws
-/// base::InputError for a mask that checked_mask() refuses or of more than 64 components, and as
-/// segment() does.
+/// The wounds of a photograph, the largest first, each with its mask: the components of the photograph's mask
+/// or of segment()'s. preparation.width_mm is that of the largest wound and sets the scale of all. Throws
+/// base::InputError as checked_mask() and segment() do, and for more than 64 components.
 std::vector<WoundPart> separate(const Photograph& photograph, const Preparation& preparation);
 
 /// Every wound of a photograph, prepared.
 std::vector<PreparedWound> prepare_all(const Photograph& photograph, const Preparation& preparation);
 
-/// The same for a patch made elsewhere: color, mask and width_mm are filled; depth too when `keep_depth`.
+/// Prepares a patch made elsewhere, whose color, mask and width_mm (and depth_mm if `keep_depth`) are filled.
 PreparedWound prepare_patch(Patch patch, const Preparation& preparation, bool keep_depth);
 
-/// What the wound is on a day: ratios and both backward warps.
+/// The wound's state on a day: ratios, phase, scar and both backward warps.
 WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day,
                   WarpModel model = WarpModel::Grid);
 

@@ -26,7 +26,7 @@ void add(base::Hash& key, const optics::Layer& layer)
         key.add(std::as_bytes(std::span(*values)));
 }
 
-/// Of everything that a table depends on.
+/// Hash of the inputs of a table.
 std::uint64_t table_key(std::span<const optics::TissueDay> rows, std::uint32_t width,
                         optics::ReflectanceModel model, const optics::ReflectanceOptions& options)
 {
@@ -61,7 +61,7 @@ bool read_table(const std::filesystem::path& path, cv::Mat3f& table)
            file.peek() == std::ifstream::traits_type::eof() && finite(table);
 }
 
-// Written under another name first, so that a reader never meets half a table.
+// Writes a temporary file and renames it, so that no reader gets an incomplete table.
 void write_table(const std::filesystem::path& path, const cv::Mat3f& table)
 {
     std::error_code error;
@@ -115,7 +115,7 @@ cv::Mat3f bake_reflectance_table(std::span<const optics::TissueDay> rows, std::u
     const auto deepest = static_cast<float>(deepest_injury_mm(rows.front().intact));
     std::atomic<int> next{0};
     const std::thread::id caller = std::this_thread::get_id();
-    // Whoever stops, by progress that threw, stops all.
+    // If options.progress throws, all threads stop.
     struct Stop
     {
         std::atomic<int>& next;

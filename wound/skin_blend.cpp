@@ -9,15 +9,15 @@ namespace wound {
 
 namespace {
 
-constexpr double inflamed_mm = .5; // the inflamed rim is as red as if an injury this deep had been covered
+constexpr double inflamed_mm = .5; // the inflamed rim is as red as a covered injury of this depth
 
 base::Color reflectance(const WoundLook& wound, shared::uint part, double injury_mm)
 {
     return sample_table(wound.reflectance, wound.axes, part, injury_mm, wound.today.day);
 }
 
-/// The face's own skin as the covered injury changes it: the table's colour over that of the same tissue
-/// without an injury.
+/// The face's own skin over a covered injury: multiplied by the ratio of the table's colours with and without
+/// the injury.
 base::Color covered_skin(const WoundLook& wound, double injury_mm, const base::Color& skin)
 {
     const base::Color unhurt = reflectance(wound, shared::LUT_COVERED, 0),
@@ -34,9 +34,9 @@ Vector mix(const Vector& a, const Vector& b, double t)
     return (1 - t) * a + t * b;
 }
 
-/// C of eq. (4) where the wound is opaque. No photograph shows the new epithelium between bed and border: its
-/// W is R, and as its layers recover by the day, nothing is left for r to do. The rim has lost nothing, but
-/// is inflamed as well; what the photograph shows of that gives way to it.
+/// C of eq. (4) where the wound is opaque. The photograph does not show the new epithelium between bed and
+/// border, so its W is R, and r is 0 because R itself recovers from day to day. The rim is not injured but
+/// inflamed; R gradually replaces its colour in the photograph.
 base::Color wound_color(const WoundLook& wound, const MapSample& here, const base::Color& skin,
                         optics::BlendModel model)
 {
@@ -68,12 +68,12 @@ SkinPoint with_wound(SkinPoint skin, const WoundLook& wound, const PatchPlace& p
 
     const ScarState& scar = wound.today.scar;
     const double fresh =
-        1 - std::clamp(wound.today.bed_recovery, 0., 1.); // how much of the bed is still seen
+        1 - std::clamp(wound.today.bed_recovery, 0., 1.); // share of the bed that is still visible
     const double bed = here.state[2] * opacity,
                  ring = wound.today.border_softness * std::clamp(here.state[3] - here.state[2], 0., 1.),
                  taut = ring * opacity;
-    // The bed is uneven in a way of its own, which the pores stand for. The hollow bends the normal: height
-    // is -depth.
+    // The bed reduces the face's pores partly: the rest serves as its own unevenness. Height is -depth, so
+    // the relief's slope is added to the normal.
     const cv::Vec3d smoothed =
         mix(skin.normal, place.geometric, std::clamp(.4 * bed * fresh + scar.pore_loss * taut, 0., 1.));
     skin.normal =

@@ -1,6 +1,6 @@
-// What a wound makes of a point of skin: the colour C of eq. (4) of Choi & Chin 2014 and all else that
-// shading needs. The double-precision twin of add_wound() in shaders/lib/wound_projection.glsl and of what
-// shaders/forward.frag does with it; a test compares the two.
+// Applies a wound to a point of skin: the colour C of eq. (4) of Choi & Chin 2014 and the other inputs of
+// shading. The double-precision reference for add_wound() in shaders/lib/wound_projection.glsl and its use in
+// shaders/forward.frag; a test compares them.
 //
 //   const glm::dvec3 p = head::in_frame(anchor, position);
 //   const double facing = head::share_received(dot(normal, anchor.normal), p.z);
@@ -16,7 +16,7 @@
 
 namespace wound {
 
-/// A point of skin as shading sees it.
+/// A point of skin as input of shading.
 struct SkinPoint
 {
     base::Color albedo;   // C of eq. (4)
@@ -26,7 +26,7 @@ struct SkinPoint
     double tautness = 0;  // 0 porous skin .. 1 new epithelium
 };
 
-/// A wound on a day, with all that a point under it is made of. Kept by the caller.
+/// A wound on a day with its maps and reflectance table. The caller owns the data.
 struct WoundLook
 {
     const WoundDay& today;
@@ -35,22 +35,22 @@ struct WoundLook
     shared::LutAxes axes;         // of the table
 };
 
-/// Where a point of skin lies under a wound's patch. Vectors are in the space of the point's normal.
+/// The position of a point of skin in a wound's patch. Vectors are in the space of the point's normal.
 struct PatchPlace
 {
     cv::Point2d at;                 // patch coordinates
-    double facing = 1;              // how much of the wound the skin receives there, 0..1
+    double facing = 1;              // factor 0..1 on the wound's opacity, by the skin's orientation
     cv::Vec3d right, down;          // the patch's axes, unit
-    cv::Vec3d geometric;            // the interpolated normal, unit, without the normal map
-    cv::Point2d footprint = {0, 0}; // of sample()
+    cv::Vec3d geometric;            // interpolated normal, unit, without the normal map
+    cv::Point2d footprint = {0, 0}; // see sample()
 };
 
-/// `skin`: the face's own, or with the wounds added so far.
+/// `skin`: the face's own skin, or the result for the wounds added so far.
 SkinPoint with_wound(SkinPoint skin, const WoundLook& wound, const PatchPlace& place,
                      optics::BlendModel model);
 
-/// The highlight as wetness and tautness change it: a wet bed mirrors in a narrower lobe, taut new epithelium
-/// a little so.
+/// The specular parameters for this wetness and tautness: a wet bed has a narrower lobe, taut new epithelium
+/// a slightly narrower one.
 optics::Shading with_gloss(optics::Shading shading, const SkinPoint& skin);
 
 } // namespace wound

@@ -40,14 +40,14 @@ cv::Mat3f coarse(const cv::Mat3f& fine)
     return result;
 }
 
-/// The photograph as given, made safe to compute with.
+/// The photograph's maps, finite and clamped.
 struct Source
 {
     cv::Mat3f color;
     cv::Mat1f coverage, valid; // 0..1
-    float radius = 0;          // of the circle of the wound's area, texels
-    float reach = 0; // how far from the border the surroundings count, texels; more for long wounds than
-                     // their area tells
+    float radius = 0;          // of the circle with the wound's area, texels
+    float reach = 0; // width of the surroundings that are used, texels; grows with the wound's length and
+                     // area
 };
 
 Source checked(const Patch& patch)
@@ -74,15 +74,14 @@ Source checked(const Patch& patch)
     return source;
 }
 
-/// `cast` without what is within `tolerance` of 0, and 70 % of the rest, at most .5: white balance is taken
-/// back with care.
+/// Log correction of a colour cast: minus 70 % of the part of `cast` beyond +-`tolerance`, within +-.5.
 float correction(float cast, float tolerance)
 {
     return -std::clamp(.7f * (cast - std::clamp(cast, -tolerance, tolerance)), -.5f, .5f);
 }
 
-/// log blue / green of the wound's red parts, median; nothing if there is little red. Blood over pale dermis
-/// has about -.05.
+/// Median log(blue / green) of the wound's red parts; nullopt if there is little red. About -.05 for blood
+/// over pale dermis.
 std::optional<float> blue_of_blood(const cv::Mat3f& log_photo, const cv::Mat1f& coverage)
 {
     std::vector<float> blues;
@@ -97,9 +96,9 @@ std::optional<float> blue_of_blood(const cv::Mat3f& log_photo, const cv::Mat1f& 
     return *middle;
 }
 
-/// Log gains for the open bed: the white balance and exposure that the photo's healthy skin and the blood
-/// itself betray, taken back in part and within limits, since neither the patient's skin nor the wound is
-/// known. Human skin lies near a line in (log r/g, log b/g) from light to dark.
+/// Log gains for the open bed that correct the photo's white balance and exposure, estimated from healthy
+/// skin and blood; partial and limited, because the true colours of the patient's skin and wound are unknown.
+/// Human skin lies near a line in (log r/g, log b/g) from light to dark.
 Vec3f bed_gain(const Vec3f& log_skin, std::optional<float> blood)
 {
     const cv::Point2f light{.40f, -.24f}, dark{.87f, -.54f},
@@ -111,12 +110,12 @@ Vec3f bed_gain(const Vec3f& log_skin, std::optional<float> blood)
     const float blue = blood ? correction(*blood + .05f, .1f) : correction(cast.y, .1f);
 
     const Vec3f linear{std::exp(log_skin[0]), std::exp(log_skin[1]), std::exp(log_skin[2])};
-    // Pale hues come with light skin only; the browner ones span all but the lightest.
+    // Only light skin has a pale hue; browner hues occur in all but the lightest skin.
     const float least = std::lerp(std::log(.30f), std::log(.05f), tone),
                 most = std::lerp(std::log(.65f), std::log(.35f), tone);
     const float seen_light = std::log(base::luminance(linear));
     const float exposure = std::clamp(.6f * (std::clamp(seen_light, least, most) - seen_light), -.45f, .45f);
-    const float even = exposure - (red + blue) / 3; // a change of balance shall not change exposure as well
+    const float even = exposure - (red + blue) / 3; // the white balance must not change the exposure
     return {even + red, even, even + blue};
 }
 
@@ -124,8 +123,8 @@ Vec3f bed_gain(const Vec3f& log_skin, std::optional<float> blood)
 struct Face
 {
     cv::Mat3f log_color;
-    cv::Mat1f weight;               // 0 where unknown; small where it is unlike the rest (brow, lip, nostril)
-    std::optional<float> log_green; // its median: how light the face is
+    cv::Mat1f weight;               // 0 where unknown; small where the colour is unusual (brow, lip, nostril)
+    std::optional<float> log_green; // median; measures how light the face is
 };
 
 Face coarse_face(const cv::Mat3f& skin)
@@ -166,7 +165,8 @@ Face coarse_face(const cv::Mat3f& skin)
     return face;
 }
 
-/// Where the photograph shows no healthy skin: that of the face, or else average_skin, nowhere to be seen.
+/// For a photograph without healthy skin: the face's skin colour, or else average_skin, with health 0
+/// everywhere.
 HealthySkin assumed_skin(const Face& face)
 {
     HealthySkin skin;
@@ -182,15 +182,16 @@ HealthySkin assumed_skin(const Face& face)
     return skin;
 }
 
-/// Log gain of the bed when the photo's skin is much darker than the face: .4 may be the patient's own tone,
-/// most of the rest is taken for underexposure. Never darkens: blood is as red on dark skin.
+/// Log gain of the bed for a photo whose skin is much darker than the face: .4 may be the patient's skin
+/// tone, 80 % of the rest counts as underexposure. 0..0.5: it never darkens, because blood is as red on dark
+/// skin.
 float lift(const HealthySkin& skin, const Face& face)
 {
     return face.log_green ? std::clamp(.8f * (*face.log_green - skin.log_color[1] - .4f), 0.f, .5f) : 0;
 }
 
-/// How much darker the photo is than its healthy skin in all channels alike once blood is allowed for, log: a
-/// shadow or a fold, which belongs to the photo's light and not to the wound. Least squares of -amount *
+/// The part of a log ratio that is equal in all channels, after subtracting the effect of blood: a shadow or
+/// a fold, which belongs to the photo's light and not to the wound. Least squares of -amount *
 /// blood_absorbance + even * (1,1,1).
 float even_part(const Vec3f& log_ratio)
 {
@@ -200,7 +201,7 @@ float even_part(const Vec3f& log_ratio)
     return (r1 * bb - rb * b1) / (3 * bb - b1 * b1);
 }
 
-/// What to add to the photo's log colour around the wound: from its skin to the face's, and its shadows out.
+/// Added to the photo's log colour around the wound: changes its skin to the face's and removes its shadows.
 cv::Mat3f skin_gain(const cv::Mat3f& log_photo, const HealthySkin& skin, const Face& face)
 {
     cv::Mat3f difference = face.log_color - log_photo;
@@ -210,7 +211,7 @@ cv::Mat3f skin_gain(const cv::Mat3f& log_photo, const HealthySkin& skin, const F
     for (int y = 0; y < grid; ++y)
         for (int x = 0; x < grid; ++x) {
             const float even = even_part(log_photo(y, x) - healthy(y, x));
-            const float beyond = even - std::clamp(even, -.05f, .05f); // so much varies from pore to pore
+            const float beyond = even - std::clamp(even, -.05f, .05f); // .05 is the variation between pores
             shade(y, x) = std::clamp(beyond, -2.f, 2.f) * base::smoothstep(.05f, .5f, skin.outwardness(y, x));
         }
     cv::GaussianBlur(shade, shade, {7, 7}, 1.5);
@@ -220,7 +221,7 @@ cv::Mat3f skin_gain(const cv::Mat3f& log_photo, const HealthySkin& skin, const F
     return gain;
 }
 
-/// 1 from the patch's middle to 0 at its frame, and at places where the photo has no data.
+/// 1 in the patch, falling to 0 at its frame and where the photo has no data.
 float present(const cv::Mat1f& valid_around, int x, int y)
 {
     const int n = valid_around.rows;
@@ -237,15 +238,15 @@ Map enlarged(const Map& map, int n)
     return result;
 }
 
-/// What to add to the photo's log colour to give healthy skin the face's own pores, hairs and stubble, which
-/// the coarse grid does not hold, in place of the photo's; 0 where the face is unknown.
+/// Added to the log colour of the photo's healthy skin: replaces its pores, hairs and stubble, which the
+/// coarse grid does not resolve, by the face's; 0 where the face is unknown.
 cv::Mat3f detail_change(const cv::Mat3f& face_skin, const Face& face, const cv::Mat3f& log_photo,
                         const cv::Mat3f& log_coarse)
 {
     const int n = log_photo.rows;
     cv::Mat3f change(n, n, Vec3f::all(0)), skin;
     if (face_skin.rows < n / 2)
-        return change; // too coarse to show any
+        return change; // too coarse to resolve them
     cv::resize(face_skin, skin, {n, n}, 0, 0, face_skin.rows > n ? cv::INTER_AREA : cv::INTER_LINEAR);
     const cv::Mat3f smooth_face = enlarged(face.log_color, n), smooth_photo = enlarged(log_coarse, n);
     cv::Mat1f known;

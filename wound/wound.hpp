@@ -1,5 +1,4 @@
-// A wound from photograph to any day: what is prepared once, and what it is on a given day. Plain C++, double
-// precision.
+// A wound as data: the part prepared once from a photograph, and its state on a given day.
 //
 //   Photograph -> prepare() -> PreparedWound -> match_to_skin() -> wound_at(day) -> WoundDay
 // Patch coordinates are defined in wound/patch.hpp.
@@ -38,13 +37,13 @@ struct WoundDay
     double recovery_ratio = 0;  // 1 - unhealed_ratio, clamped to 0..1
     double bed_recovery = 0;    // r of eq. (4) in the open bed
     double border_recovery = 0; // r of eq. (4) on new epithelium and in the rim
-    double border_softness = 0; // 0 the border is the photograph's, 1 that of new skin, which ends softly
+    double border_softness = 0; // 0 the photograph's border .. 1 the soft border of new skin
     double depth_scale = 1;     // sqrt(unhealed_ratio), at most 1
-    bool in_phases = false; // the bed's colour passes through the phases of healing, not only through eq. (4)
+    bool in_phases = false;     // whether `phase` changes the bed's colour, in addition to eq. (4)
     Phase phase;
     double bed_presence =
-        1;          // 1 until closure, then 0 by the time the bed is a texel wide: the last of it fades
-    ScarState scar; // the look of what is inside the border and outside the bed
+        1;          // opacity of the bed: 1 until closure, then falls to 0 when the bed is one texel wide
+    ScarState scar; // appearance of the skin inside the border and outside the bed
     Warp border_warp, bed_warp; // backward maps: today's patch coordinates -> day 0's
 };
 

@@ -327,15 +327,15 @@ TEST(MonteCarlo, RefusesWalksThatWouldTakeHours)
         }
         return std::string();
     };
-    EXPECT_THAT(refusal(0, 10, 0, infinity, 1), HasSubstr("nothing ends a photon's walk"));
+    EXPECT_THAT(refusal(0, 10, 0, infinity, 1), HasSubstr("a photon's walk through an infinite layer"));
     EXPECT_THAT(
         refusal(0, 9000, .99, 1, 1'000'000),
         HasSubstr(
-            "1000000 photons of about 7e+06 steps each would walk for hours; use 10000 photons or fewer"));
+            "1000000 photons of about 7e+06 steps each would take hours; use 10000 photons or fewer"));
     EXPECT_THAT(refusal(0, 90, .99, 1, 2'000'000),
                 HasSubstr("use 1000000 photons or fewer, or adding-doubling"));
     EXPECT_EQ(refusal(0, 90, .99, 1, 20), "");
-    EXPECT_THAT(refusal(1e-12, 10, 0, infinity, 1'000'000), HasSubstr("would walk for hours"));
+    EXPECT_THAT(refusal(1e-12, 10, 0, infinity, 1'000'000), HasSubstr("would take hours"));
     EXPECT_EQ(refusal(1, 10, 0, infinity, 1000), ""); // absorption ends it
     EXPECT_THAT(refusal(1, 10, 0, infinity, 100'000'000'000), HasSubstr("photons or fewer"));
     EXPECT_EQ(refusal(0, 0, 0, infinity, 1000), ""); // clear

@@ -243,7 +243,7 @@ TEST(TissueFile, MistakesAreNamedWithFileAndField)
         message_of(tissue_with(good_layer + R"(,{"sigma_a":[1,2],"sigma_s":1,"n":1,"thickness_mm":1})")),
         HasSubstr("/layers/1: 2 channels where another layer has 3"));
     EXPECT_THAT(layer_with(R"("sigma_s":10)", R"("chromophores":{})"),
-                HasSubstr("/layers/0/sigma_a: stands beside chromophores"));
+                HasSubstr("/layers/0/sigma_a: is given beside chromophores"));
     EXPECT_THROW(optics::read_tissue("/nonexistent/tissue.json"), base::InputError);
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-constexpr double largest_drawn_ratio = 1e4; // beyond it the table is wrong
+constexpr double largest_plausible_ratio = 1e4; // area / first area; a larger one is an error of the table
 
 std::string trimmed(std::string_view text)
 {
@@ -73,7 +73,7 @@ struct Columns
 {
     int day = -1, wound = -1, group = -1, weight = -1;
     std::vector<int> areas, edges;
-    bool ratio = false; // already relative to the first day
+    bool ratio = false; // `areas` are already relative to the first day
 };
 
 struct Reader
@@ -172,10 +172,10 @@ AreaSeries series_of(const Rows& rows, const Reader& reader)
     for (const auto& [day, measured] : days) {
         series.days.push_back(day - first->first);
         series.ratios.push_back(measured.area / measured.weight / initial);
-        if (!(series.ratios.back() <= largest_drawn_ratio))
+        if (!(series.ratios.back() <= largest_plausible_ratio))
             reader.refuse(fmt::format("{}: on day {} the area is {:.3g} times that of the first day", name,
                                       day, series.ratios.back()),
-                          "correct the table: no wound grows so");
+                          "correct the table: no wound grows that much");
         series.weights.push_back(measured.weight);
     }
     return series;
@@ -209,9 +209,9 @@ std::vector<AreaSeries> read_area_table(std::istream& text, std::string_view whe
             const Row header = split(line, separator);
             if (number(header.front(), reader.decimal_comma)) { // no header
                 if (header.size() != 2)
-                    reader.refuse(fmt::format("there is no header and a row has {} columns, not day and area",
-                                              header.size()),
-                                  "name the columns; where commas are decimal, separate by semicolons");
+                    reader.refuse(
+                        fmt::format("has no header and {} columns, not the two day and area", header.size()),
+                        "name the columns; where commas are decimal, separate by semicolons");
                 number_of_columns = 2;
                 reader.columns.day = 0;
                 reader.columns.areas = {1};

@@ -48,7 +48,7 @@ Linearised linearise(const AreaSeries& series, const std::vector<double>& weight
         const double e = unhealed_ratio(curve, t);
         const double power = t > 0 ? curve.delta * std::pow(t, curve.gamma) : 0;
         result.residual[i] = root * (e - series.ratios[i]);
-        // Where e has underflowed the product e x power would be 0 x large: it is 0.
+        // If e has underflowed to 0, `power` may be infinite and 0 x infinity NaN; the limit is 0.
         const double slope = e > 0 ? e * power : 0;
         result.jacobian.row(i) << -root * slope, t > 0 ? -root * slope * std::log(t) : 0,
             -root * e * t / std::hypot(1, curve.theta * t);
@@ -56,8 +56,8 @@ Linearised linearise(const AreaSeries& series, const std::vector<double>& weight
     return result;
 }
 
-/// Levenberg-Marquardt within the bounds: a step is cut at a bound, and a parameter held there while it
-/// pushes outwards.
+/// Levenberg-Marquardt within the bounds: a step is clamped to the bounds, and a parameter at a bound is
+/// fixed while the gradient points outwards.
 Parameters minimise(const AreaSeries& series, const std::vector<double>& weights, int free, Parameters p)
 {
     double damping = 1e-3;
@@ -94,11 +94,11 @@ Parameters minimise(const AreaSeries& series, const std::vector<double>& weights
     return p;
 }
 
-/// The best end of many starts, curves of several shapes that are half closed at several days: those that
-/// already lie near the data are followed.
-Parameters best_start(const AreaSeries& series, const std::vector<double>& weights, int free)
+/// The best minimum from several starts. Candidates are curves of several shapes and half-closure days; the
+/// starts_to_try of them that lie nearest the data are minimised.
+Parameters best_minimum(const AreaSeries& series, const std::vector<double>& weights, int free)
 {
-    constexpr std::size_t followed_days = 12;
+    constexpr std::size_t starts_to_try = 12;
     const double last = std::max(series.days.back(), 1e-6);
     const auto misfit = [&](const Parameters& p) {
         return linearise(series, weights, p).residual.squaredNorm();
@@ -115,7 +115,7 @@ Parameters best_start(const AreaSeries& series, const std::vector<double>& weigh
             }
     std::stable_sort(starts.begin(), starts.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    starts.resize(std::min(starts.size(), followed_days));
+    starts.resize(std::min(starts.size(), starts_to_try));
     Parameters best = starts.front().second;
     double least = std::numeric_limits<double>::infinity();
     for (const auto& [unused, start] : starts) {
@@ -175,7 +175,7 @@ CurveFit fit_model(const AreaSeries& series, CurveModel model, const FitOptions&
 {
     const int free = parameters_of(model);
     std::vector<double> weights = series.weights;
-    Parameters p = best_start(series, weights, free);
+    Parameters p = best_minimum(series, weights, free);
     for (int round = 0; options.robust && round < 20; ++round) {
         weights = huber_weights(series, p);
         p = minimise(series, weights, free, p);
@@ -194,7 +194,7 @@ CurveFit fit_model(const AreaSeries& series, CurveModel model, const FitOptions&
     }();
     fit.rmse = std::sqrt(fit.residual / total);
     const auto n = static_cast<double>(series.days.size());
-    // A perfect fit would have an AIC of minus infinity: a ratio is not known better than 1e-6.
+    // The RMSE is at least 1e-6, the precision of a ratio: a perfect fit would have an AIC of minus infinity.
     fit.aic = n * std::log(std::max(fit.rmse * fit.rmse, 1e-12)) + 2 * (free + 1);
     return fit;
 }
@@ -218,7 +218,7 @@ SeriesFit fit_series(const AreaSeries& series, std::string_view where, const Fit
                                "give areas on two days or more");
     SeriesFit fit{series, {}, 0};
     for (CurveModel model : curve_models)
-        // Day 0 is met by every curve, so it identifies no parameter.
+        // Every curve is 1 on day 0, so that day determines no parameter.
         if (parameters_of(model) <= static_cast<int>(series.days.size()) - 1)
             fit.models.push_back(fit_model(series, model, options));
     for (std::size_t i = 1; i < fit.models.size(); ++i)
@@ -263,13 +263,13 @@ H3 curve_from_areas(const std::filesystem::path& table, std::string_view series)
 
 Peak largest_ratio(const H3& curve)
 {
-    // r rises only while -theta / sqrt(1 + theta^2 t^2) exceeds delta gamma t^(gamma-1): found on a
-    // logarithmic scale of days.
+    // r rises only while -theta / sqrt(1 + theta^2 t^2) exceeds delta gamma t^(gamma-1): search days on a
+    // logarithmic scale.
     Peak peak;
     for (double day = 1e-4; day < 1e6; day *= 1.005)
         if (const double ratio = unhealed_ratio(curve, day); ratio > peak.ratio)
             peak = {ratio, day};
-    if (peak.day > 9e5) // it still rises there
+    if (peak.day > 9e5) // still rising at the end of the search
         peak = {std::numeric_limits<double>::infinity(), peak.day};
     return peak;
 }

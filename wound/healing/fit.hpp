@@ -24,7 +24,7 @@ const char* name_of(CurveModel model);
 
 struct FitOptions
 {
-    bool robust = false; // Huber's loss: one bad measurement does not pull the curve
+    bool robust = false; // Huber's loss, which limits the influence of outliers
     MeanOf mean = MeanOf::Areas;
 };
 
@@ -32,8 +32,8 @@ struct CurveFit
 {
     CurveModel model = CurveModel::Exponential;
     H3 curve;
-    std::array<double, 3> standard_errors{}; // of delta, gamma, theta; NaN for one that is fixed, at its
-                                             // bound or not identified
+    std::array<double, 3> standard_errors{}; // of delta, gamma, theta; NaN if fixed, at a bound or not
+                                             // identifiable
     double residual = 0;                     // weighted sum of squares
     double rmse = 0;                         // of the ratio
     double aic = 0;                          // n ln(residual / n) + 2 (parameters + 1)
@@ -43,7 +43,7 @@ struct SeriesFit
 {
     AreaSeries series;
     std::vector<CurveFit>
-        models; // in order of parameters; those with more parameters than measured days are left out
+        models; // by number of parameters, which is at most the number of measured days after day 0
     std::size_t preferred = 0; // index of the least AIC
     const CurveFit& best() const { return models[preferred]; }
 };
@@ -51,27 +51,26 @@ struct SeriesFit
 /// Throws base::InputError (`where` names the table) for a series of fewer than two days.
 SeriesFit fit_series(const AreaSeries& series, std::string_view where, const FitOptions& options = {});
 
-/// Every series measured on two days or more and, when there are several, the means of their groups and,
-/// last, of all.
+/// Fits every series measured on two days or more; for several series also the means of their groups and,
+/// last, the mean of all.
 std::vector<SeriesFit> fit_table(const std::vector<AreaSeries>& table, std::string_view where,
                                  const FitOptions& options = {});
 
-/// A table's mean (or its only wound), or the series named. Throws base::InputError when there is no
-/// series of that name.
+/// The series of that name; for an empty name the table's mean or its only wound. Throws base::InputError for
+/// an unknown name.
 SeriesFit fit_from_areas(const std::filesystem::path& table, std::string_view series = {});
-/// Its preferred curve: what a scene's "areas" file stands for.
+/// The preferred curve of fit_from_areas(); used for a scene's "areas" file.
 H3 curve_from_areas(const std::filesystem::path& table, std::string_view series = {});
 
-/// The largest ratio of the curve, infinite for one that never stops growing, and the day on which it is
-/// reached.
+/// The curve's largest ratio, infinite if it never stops growing, and the day of that ratio.
 struct Peak
 {
     double ratio = 1, day = 0;
 };
 Peak largest_ratio(const H3& curve);
 
-/// fit.json: {"series": [{"name", "n", "models": {...}, "preferred", "half_time_days", ...}]}; what is
-/// unknown or infinite is null.
+/// fit.json: {"series": [{"name", "n", "models": {...}, "preferred", "half_time_days", ...}]}; unknown or
+/// infinite values are null.
 nlohmann::json fit_to_json(const std::vector<SeriesFit>& fits);
 
 /// Measurements with the three curves above their residuals, RGB, 960 x 640.

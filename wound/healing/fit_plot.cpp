@@ -39,7 +39,7 @@ base::Chart curve_chart(const SeriesFit& fit, const base::Axis& days)
         chart.series.push_back(std::move(line));
     }
     chart.series.push_back({.legend = "measured", .points = measured_points(fit.series), .radius = 5});
-    double highest = 1.1; // of what is measured: a curve may rise far above it
+    double highest = 1.1; // from the measurements only: a curve may rise far above them
     for (const double ratio : fit.series.ratios)
         highest = std::max(highest, 1.05 * ratio);
     chart.y.high = highest;

@@ -34,8 +34,8 @@ double unhealed_ratio(const H3& curve, double day)
     const double t = std::max(day, 0.);
     if (t == 0)
         return 1;
-    // delta = 0 with t^gamma = infinity would be NaN. One exponential of the summed exponent, rather than
-    // exp(-asinh) by its closed form times another, so that neither factor under- or overflows alone.
+    // delta = 0 with t^gamma = infinity would give NaN. One exponential of the sum, instead of a product with
+    // the closed form of exp(-asinh), because a single factor could under- or overflow.
     const double power = curve.delta == 0 ? 0 : curve.delta * std::pow(t, curve.gamma);
     const double healing = std::exp(-(power + std::asinh(curve.theta * t)));
     return curve.asymptote + (1 - curve.asymptote) * healing;
@@ -48,8 +48,7 @@ HealingState healing_at(const Healing& healing, double day)
     state.unhealed_ratio = std::clamp(unhealed_ratio(healing.curve, day), 0., largest_drawn_ratio);
     const double r = state.unhealed_ratio;
     const double residual = healing.residual_border;
-    // While the wound still grows, its border is the bed's: the ring of new epithelium starts at its largest
-    // extent.
+    // While the wound is larger than at first, border and bed are equal; there is no ring of new epithelium.
     const bool ring = healing.model == HealingModel::Face && r < 1;
     state.border_ratio = ring ? residual + (1 - residual) * r : r;
     state.recovery_ratio = std::clamp(1 - r, 0., 1.);
@@ -62,8 +61,8 @@ double day_below(const H3& curve, double level)
     constexpr double last_day = 1e9;
     if (!(unhealed_ratio(curve, last_day) < level))
         return std::numeric_limits<double>::infinity();
-    // With theta < 0 the ratio may cross the level more than once (at most a fall, a rise and a fall), so the
-    // last crossing is looked for from the far side, in logarithmic steps, then bisected.
+    // With theta < 0 the ratio may cross the level more than once (at most a fall, a rise and a fall), so
+    // search for the last crossing backward in logarithmic steps, then bisect.
     double above = 0;
     double below = last_day;
     constexpr double step = 1.01;

@@ -31,7 +31,7 @@ double along(const std::array<Knot, count>& knots, double day)
     return knots.back().value;
 }
 
-// Days of a wound that closes on day 25.
+// Courses in days of a wound that closes on day 25.
 constexpr double early_days = 5, closing_days = 25;
 constexpr std::array<Knot, 5> clot_course{{{0, 0}, {1.2, .62}, {2.5, .50}, {6, .06}, {9, 0}}};
 constexpr std::array<Knot, 5> fibrin_course{{{.8, 0}, {3, .36}, {4.5, .36}, {8, .05}, {12, 0}}};
@@ -40,8 +40,8 @@ constexpr std::array<Knot, 4> rim_course{{{0, 1}, {3, 1}, {12, .55}, {25, .15}}}
 
 const Vec3d clot_color{.055, .012, .009}, fibrin_color{.52, .35, .15}, granulation_color{.37, .045, .042};
 
-/// Whether a texel has turned when `share` of the bed has; `rank` 0..1 is 1 for those that turn first.
-double turned(double share, double rank)
+/// 0..1: how far a texel has changed when `share` of the bed has; texels of `rank` 1 change first, of 0 last.
+double changed(double share, double rank)
 {
     return base::smoothstep(1 - 1.5 * share, 1.5 - 1.5 * share, rank);
 }
@@ -63,7 +63,7 @@ Phase phase_at(double day, double closure_day, double age_days)
     };
     const double then = healing_time(std::max(age_days, 0.)),
                  now = healing_time(std::max(day, 0.) + std::max(age_days, 0.));
-    // What was on the wound when the photograph was taken is on the photograph.
+    // The photograph already shows the change up to the day on which it was taken.
     const auto since_photo = [&](const auto& course) {
         return std::max(along(course, now) - along(course, then), 0.);
     };
@@ -74,13 +74,13 @@ Phase phase_at(double day, double closure_day, double age_days)
 PhaseDays phase_days(double closure_day)
 {
     const double early = std::min(early_days, closure_day * early_days / closing_days);
-    const auto day_of = [&](double healing_time) { // the inverse of phase_at()'s
+    const auto day_of = [&](double healing_time) { // inverse of healing_time() in phase_at()
         return healing_time < early_days ? healing_time * early / early_days
                                          : early + (healing_time - early_days) * (closure_day - early) /
                                                        (closing_days - early_days);
     };
     return {day_of(fibrin_course.front().day), day_of(granulation_course.front().day),
-            day_of(early_days)}; // with the end of inflammation, new epithelium grows
+            day_of(early_days)}; // new epithelium grows from the end of inflammation
 }
 
 double bed_luminance(const Patch& patch)
@@ -102,11 +102,10 @@ cv::Vec3d tinted(const cv::Vec3d& color, const Phase& phase, double bed_luminanc
     const double light = std::max(double(base::luminance(color)), 1e-4) / std::max(bed_luminance, 1e-4);
     const double paleness = std::clamp(.5 + .25 * std::log2(light), 0., 1.); // 1/4 .. 4 times the median
     const double redness = std::clamp(1 - 2 * color[1] / std::max(color[0], 1e-4), 0., 1.);
-    const double relief =
-        std::sqrt(std::clamp(light, .35, 1.8)); // the texture of what was there shows through
-    Vec3d result = mix(color, clot_color * relief, .9 * turned(phase.clot, 1 - paleness));
-    result = mix(result, fibrin_color * relief, .8 * turned(phase.fibrin, paleness));
-    return mix(result, granulation_color * relief, .65 * turned(phase.granulation, redness));
+    const double relief = std::sqrt(std::clamp(light, .35, 1.8)); // keeps the photograph's texture visible
+    Vec3d result = mix(color, clot_color * relief, .9 * changed(phase.clot, 1 - paleness));
+    result = mix(result, fibrin_color * relief, .8 * changed(phase.fibrin, paleness));
+    return mix(result, granulation_color * relief, .65 * changed(phase.granulation, redness));
 }
 
 } // namespace wound

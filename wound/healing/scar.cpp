@@ -10,7 +10,7 @@ namespace {
 constexpr double days_per_month = 30.44;
 constexpr double highest_mm = .35; // at highest_month
 constexpr double highest_month = 2.5;
-constexpr double sunken_mm = .1; // finally
+constexpr double sunken_mm = .1; // final depth below the skin
 
 } // namespace
 
@@ -20,7 +20,8 @@ ScarState scar_after(double months)
     ScarState scar;
     scar.months = t;
     scar.redness = 2.055 / (1 + t / 2.37);
-    // New epithelium holds no excess of melanin yet: it builds up within a week or two and fades over months.
+    // New epithelium has no excess of melanin; the excess builds up in one to two weeks and fades over
+    // months.
     scar.pigmentation = .306 * std::exp(-t / 4.3) * (1 - std::exp(-t / .25));
     scar.height_mm = highest_mm * t / highest_month * std::exp(1 - t / highest_month) -
                      sunken_mm * (1 - std::exp(-t / 6));

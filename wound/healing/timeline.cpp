@@ -13,7 +13,7 @@ namespace {
 
 constexpr double days_per_month = 30.44;
 
-/// The phases of the open bed, each from the day its courses in phase_at() begin.
+/// The phases of the open bed; each begins with its course in phase_at().
 std::vector<TimelinePhase> open_phases(const Healing& healing, double closed, double last_day)
 {
     if (healing.model == HealingModel::Contraction)

@@ -16,13 +16,13 @@ using Eigen::ArrayXd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Directions are named by s = n sin(theta), which refraction leaves alone, so one set of nodes serves all
-// layers and a boundary never mixes nodes. All vectors hold the flux of a node. Node 0 is the normal
-// direction, with next to no weight of its own.
+// A direction is given by s = n sin(theta), which refraction does not change, so all layers use one set of
+// nodes and a boundary never mixes nodes. All vectors hold the flux of a node. Node 0 is the normal
+// direction; its weight is almost 0.
 struct Nodes
 {
     ArrayXd s2;     // s squared
-    ArrayXd weight; // of s ds: what isotropic light of unit radiance / n^2 carries
+    ArrayXd weight; // of s ds: the flux of isotropic light of unit radiance / n^2
 };
 
 // Abscissae and weights of Gauss-Legendre quadrature on [0, 1] (Newton's method on P_n).
@@ -65,7 +65,7 @@ Nodes make_nodes(const Stack& stack, int angles, Quadrature quadrature)
     Nodes nodes{ArrayXd::Zero(count), ArrayXd::Constant(count, 1e-10)};
     double start = 0;
     for (std::size_t p = 0; p < ends.size(); ++p) {
-        // The variable is the cosine in a medium of index n, from that of the panel's end to that of its
+        // The variable is the cosine in a medium of index n, from its value at the panel's end to that at the
         // start.
         const double n = quadrature == Quadrature::Smooth ? ends[p] : ends.back();
         const double low = std::sqrt(1 - ends[p] * ends[p] / (n * n));
@@ -89,8 +89,7 @@ Operator boundary(const Nodes& nodes, double n_above, double n_below)
 {
     const Eigen::Index count = nodes.s2.size();
     const double thinner = std::min(n_above, n_below);
-    // Total reflection falls short of 1 by next to nothing, lest light trapped in a clear layer, which none
-    // ever is, made the round trip's matrix singular.
+    // Total reflection is slightly below 1: with 1 the round-trip matrix of a clear layer would be singular.
     VectorXd r = VectorXd::Constant(count, 1 - 1e-15), t = VectorXd::Zero(count);
     for (Eigen::Index j = 0; j < count; ++j)
         if (nodes.s2[j] < thinner * thinner) {
@@ -101,8 +100,8 @@ Operator boundary(const Nodes& nodes, double n_above, double n_below)
 }
 
 // The even and the odd part of the azimuth-averaged phase function between the layer's cosines, sum over m of
-// (2m+1) chi_m P_m(mu_i) P_m(mu_j), with the peak |g|^M taken out (delta-M, Wiscombe 1977). Backward
-// scattering is forward scattering with the odd part turned round.
+// (2m+1) chi_m P_m(mu_i) P_m(mu_j), with the peak |g|^M removed (delta-M, Wiscombe 1977). For g < 0 the odd
+// part changes sign.
 void phase_function(double g, double peak, int moments, const ArrayXd& mu, MatrixXd& even, MatrixXd& odd)
 {
     const Eigen::Index count = mu.size();
@@ -121,18 +120,18 @@ void phase_function(double g, double peak, int moments, const ArrayXd& mu, Matri
         odd = -odd;
 }
 
-// The layer's modes: B = L L', L' C L = Q k^2 Q', in order of growing k.
+// The layer's modes: B = L L', L' C L = Q k^2 Q', in order of increasing k.
 struct Modes
 {
     MatrixXd L, Q;
     ArrayXd k;
-    VectorXd isotropic; // that light in these modes: Q' L^-1 isotropic
+    VectorXd isotropic; // isotropic light in these modes: Q' L^-1 isotropic
 };
 
-// Isotropic light, `isotropic` in the symmetric scaling, is lost to absorption alone: C isotropic = absorbed.
-// The mode that comes from it has k = 0 without absorption and next to nothing with little, of which the
-// rounding of C would leave no digit. A reflection that takes it to the first axis leaves its row and its
-// column to that identity.
+// Only absorption removes isotropic light (`isotropic` in the symmetric scaling): C isotropic = absorbed. Its
+// mode has k = 0 without absorption, and with little absorption a k so small that rounding in C would destroy
+// it. So a Householder reflection maps this mode to the first axis, and the identity fills that row and
+// column.
 Modes layer_modes(const MatrixXd& B, const MatrixXd& C, const VectorXd& isotropic, const VectorXd& absorbed)
 {
     Modes modes{.L = B.llt().matrixL(), .Q = {}, .k = {}, .isotropic = {}};
@@ -168,8 +167,7 @@ SumDifference respond(const Modes& modes, double half)
     const ArrayXd tanh = (modes.k * half).tanh();
     const MatrixXd inverse = modes.L.transpose().triangularView<Eigen::Upper>().solve(modes.Q);
     const MatrixXd Y = inverse * (modes.k * tanh).matrix().asDiagonal() * inverse.transpose();
-    // tanh(k half) / k of the first mode may be huge; its part of W comes in by the formula of Sherman and
-    // Morrison.
+    // tanh(k half) / k of the first mode may be huge; its part of W is added by the Sherman-Morrison formula.
     ArrayXd tanhc = (modes.k > 1e-8 / half).select(tanh / modes.k.max(1e-300), half);
     const double first = std::exchange(tanhc[0], 0);
     const MatrixXd LQ = modes.L * modes.Q;
@@ -183,9 +181,9 @@ SumDifference respond(const Modes& modes, double half)
         .sum = I - 2 * reduced.solve(Y), .difference = I - 2 * inverted, .lost = 2 * reduced.solve(absorbed)};
 }
 
-// A layer of any thickness in closed form: what doubling converges to when it starts infinitely thin. With
-// sums S and differences D of the two directions, S' = -B D and D' = -C S, B and C symmetric; R + T and R - T
-// follow from the even and the odd solution. Lengths are optical, so that no coefficient is too small.
+// A layer of any thickness in closed form, the limit of doubling from an infinitely thin layer. For the sum S
+// and difference D of the two directions, S' = -B D and D' = -C S with B and C symmetric; the even and the
+// odd solution give R + T and R - T. Lengths are optical, so that no coefficient underflows.
 Operator layer_operator(const Nodes& nodes, const LayerOptics& layer, int angles)
 {
     const Eigen::Index all = nodes.s2.size();
@@ -202,20 +200,20 @@ Operator layer_operator(const Nodes& nodes, const LayerOptics& layer, int angles
     const int moments = 2 * angles;
     const double peak = std::pow(g, moments), sigma_s = layer.sigma_s_reduced / (1 - g);
     const double scattering = sigma_s * (1 - peak), extinction = layer.sigma_a + scattering;
-    // Thicker than this nothing changes but rounding; it also stands for an infinite layer.
+    // Beyond 1e12 only rounding changes; 1e12 also represents an infinite layer.
     const double half = extinction > 0 ? 0.5 * std::min(extinction * layer.thickness_mm, 1e12) : 0;
-    SumDifference response{.sum = MatrixXd::Identity(count, count), // an empty layer's
+    SumDifference response{.sum = MatrixXd::Identity(count, count), // of an empty layer
                            .difference = -MatrixXd::Identity(count, count),
                            .lost = VectorXd::Zero(count)};
     if (half > 0) {
         MatrixXd even, odd;
         phase_function(g, peak, moments, mu, even, odd);
-        // The quadrature must conserve light exactly: what the even part lacks of 1 goes into its diagonal.
+        // The quadrature must conserve energy exactly: the diagonal gets what the even part's sum lacks of 1.
         even.diagonal().array() += (1 - (even * dmu.matrix()).array()) / dmu;
         const VectorXd scale = (dmu / mu).sqrt();
         const MatrixXd pair = scattering / extinction * scale * scale.transpose();
         const VectorXd loss = 1 / mu;
-        // A forward peak is no event; a backward one changes the sign of a difference.
+        // A forward peak leaves light unscattered; a backward peak changes the sign of a difference.
         const double turned = g < 0 ? 2 * peak * sigma_s / extinction : 0;
         MatrixXd B = -odd.cwiseProduct(pair), C = -even.cwiseProduct(pair);
         B.diagonal() += (1 + turned) * loss;
@@ -226,8 +224,7 @@ Operator layer_operator(const Nodes& nodes, const LayerOptics& layer, int angles
     const MatrixXd to_flux = root * root.cwiseInverse().transpose();
     MatrixXd r = (0.5 * (response.sum + response.difference)).cwiseProduct(to_flux);
     MatrixXd t = (0.5 * (response.sum - response.difference)).cwiseProduct(to_flux);
-    // What nodes of little weight lose or gain by rounding is put right by what the layer keeps of their
-    // light.
+    // Rounding errors of nodes of little weight: scale each column so that it absorbs exactly its known loss.
     for (Eigen::Index j = 0; j < count; ++j)
         if (const double kept = 1 - response.lost[j] / root[j]; kept > 0.5) {
             const double factor = kept / (r.col(j).sum() + t.col(j).sum());
@@ -258,7 +255,7 @@ Response adding_doubling(const Stack& stack, const ReflectanceOptions& options)
     }
     list.push_back(boundary(nodes, above, stack.n_below));
 
-    // Upward: the reflection of all that lies under each element, nothing coming from below.
+    // Upward: the reflection of everything under each element; no light comes from below.
     const Eigen::Index count = nodes.s2.size();
     const MatrixXd I = MatrixXd::Identity(count, count);
     std::vector<MatrixXd> under(list.size() + 1, MatrixXd::Zero(count, count));

@@ -6,9 +6,9 @@
 
 namespace optics {
 
-/// options.angles: quadrature nodes per panel (panels end where one of the media starts to reflect
-/// totally), 2..64. 8 is within 2e-4 of the published values. Anisotropy beyond +-.99 is taken as .99 at the
-/// same reduced scattering.
+/// options.angles: quadrature nodes per panel, 2..64; a panel ends at the critical angle of one of the media.
+/// 8 nodes are within 2e-4 of the published values. Anisotropy is clamped to +-.99 at constant reduced
+/// scattering.
 Response adding_doubling(const Stack& stack, const ReflectanceOptions& options);
 
 } // namespace optics

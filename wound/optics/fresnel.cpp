@@ -20,9 +20,9 @@ double fresnel(double n_from, double n_to, double cos_incidence)
 
 namespace {
 
-// Light in the thinner medium, n = n_to / n_from > 1. The closed form (Walsh 1926; Judd 1942; Egan & Hilgeman
-// 1979) is a difference of terms that grow as 1/(n-1), so close to 1 all but its logarithm is replaced by its
-// Taylor series in x = n - 1.
+// Light in the medium of lower index, n = n_to / n_from > 1. The closed form (Walsh 1926; Judd 1942; Egan &
+// Hilgeman 1979) is a difference of terms that grow as 1/(n-1), so near 1 everything except its logarithm is
+// replaced by a Taylor series in x = n - 1.
 double external_diffuse_fresnel(double n)
 {
     const double x = n - 1, n2 = n * n, n4 = n2 * n2;
@@ -64,7 +64,7 @@ double diffuse_fresnel_polynomial(double n_from, double n_to)
 double backward_fraction(double g)
 {
     // Integral of Henyey & Greenstein 1941 over the backward half: (1-g)/(2g) ((1+g)/sqrt(1+g^2) - 1), which
-    // is 0/0 at g = 0; multiplied out by the conjugate.
+    // is 0/0 at g = 0; expanding by the conjugate removes the division by g.
     const double q = std::sqrt(1 + g * g);
     return (1 - g) / (q * (1 + g + q));
 }

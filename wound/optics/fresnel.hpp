@@ -1,20 +1,18 @@
-// What a smooth boundary between two media does to light that meets it, and how much of a scattering event
-// goes backward.
+// Fresnel reflection at a smooth boundary between two media, and the backward part of the phase function.
 #pragma once
 
 namespace optics {
 
-/// Fresnel reflectance for unpolarised light that meets the boundary at `cos_incidence` (0..1), coming from
-/// `n_from`.
+/// Fresnel reflectance for unpolarised light that comes from `n_from` at `cos_incidence` (0..1).
 double fresnel(double n_from, double n_to, double cos_incidence);
 
 /// Diffuse Fresnel reflectance F_dr: the cosine-weighted mean over the hemisphere, in closed form (optics.md,
 /// eq. F1).
 double diffuse_fresnel(double n_from, double n_to);
 
-/// The same by the polynomial the paper takes from Groenhuis, Ferwerda & ten Bosch 1983 (optics.md, eq. F3):
-/// good to .0016 for light inside a medium up to 2 times as dense as the outside; .0016 instead of 0 at equal
-/// indices.
+/// F_dr by the polynomial that the paper takes from Groenhuis, Ferwerda & ten Bosch 1983 (optics.md, eq. F3):
+/// error at most .0016 for light inside a medium whose index is up to 2 times that outside; returns .0016
+/// instead of 0 for equal indices.
 double diffuse_fresnel_polynomial(double n_from, double n_to);
 
 /// P(g): the part of the Henyey-Greenstein phase function in the backward half space; stable for every g in

@@ -42,8 +42,8 @@ SkinLayers layers_at(const TissueDay& day, double injury_depth_mm)
         removed -= std::min(removed, whole);
         if (layer.thickness_mm <= 0 && i + 1 < day.intact.layers.size())
             continue;
-        // Without this the colour would jump when a layer of another index is gone: over its last quarter its
-        // index goes over into that of what lies beneath.
+        // Over the last quarter of a layer's thickness its index blends into that of the layer beneath;
+        // otherwise the colour would jump when the layer vanishes.
         if (i + 1 < day.intact.layers.size()) {
             const double share = std::min(1.0, 4 * layer.thickness_mm / whole);
             layer.n = share * layer.n + (1 - share) * day.intact.layers[i + 1].n;

@@ -56,10 +56,10 @@ struct Tally
     std::vector<double> absorbed;
 };
 
-// A layer as the walk needs it.
+// A layer; lengths in mm, `survival` is the single-scattering albedo.
 struct Medium
 {
-    double extinction, survival, g, n, thickness; // survival: albedo
+    double extinction, survival, g, n, thickness;
 };
 
 struct Photon
@@ -69,7 +69,7 @@ struct Photon
     std::ptrdiff_t layer;
 };
 
-// The walk is in depth only: by symmetry the azimuth of the direction never matters.
+// The walk tracks depth only: by symmetry the azimuth of the direction does not matter.
 class Walk
 {
   public:
@@ -86,14 +86,13 @@ class Walk
         }
     }
 
-    /// Sends one photon; adds what returns and what passes to the tally, less what the first surface
-    /// reflects.
+    /// Sends one photon; adds its reflected and transmitted weight to the tally, without the reflection at
+    /// the first surface.
     void send(Random& random, Tally& tally)
     {
         double outside = 1, passed = 1 - fresnel(n_above_, n_first_, 1);
         if (incidence_ == Incidence::Diffuse) {
-            // Cosine-weighted, and of those only the ones that get in; the weight is what gets in on the
-            // whole.
+            // Cosine-weighted, rejected by Fresnel reflectance; the weight is the mean transmittance.
             do
                 outside = std::sqrt(1 - random());
             while (random() < fresnel(n_above_, n_first_, outside));
@@ -124,7 +123,7 @@ class Walk
         tally.transmitted += transmitted;
     }
 
-    // To the next scattering event or boundary. Returns -1 when the photon left upward, +1 downward, else 0.
+    // To the next scattering event or boundary. Returns -1 if the photon left upward, 1 downward, or 0.
     std::ptrdiff_t step(Random& random)
     {
         const Medium& medium = media_[static_cast<std::size_t>(photon_.layer)];
@@ -196,11 +195,10 @@ class Walk
     Photon photon_{};
 };
 
-// Steps of one photon in a layer, within a factor of two or so where it is the first. Without absorption
-// diffuse light fills the tissue evenly, so that its path in a layer is 4 n^2 d whatever the scattering
+// Estimated steps of one photon in a layer, within a factor of about two for the first layer. Without
+// absorption diffuse light fills the tissue evenly, so its path in a layer is 4 n^2 d for any scattering
 // (Blanco & Fournier 2003, "An invariance property of diffusive random walks"). A photon lives until its
-// weight is 1e-3, exp(-7): of a thick layer it sees as much as diffusion with a seventh of the absorption
-// lets it.
+// weight is 1e-3 = exp(-7), so in a thick layer it reaches the diffusion length at 1/7 of the absorption.
 double steps_in(const LayerOptics& layer, double n_above)
 {
     const double extinction = layer.sigma_a + layer.sigma_s_reduced / (1 - std::clamp(layer.g, -0.99, 0.99));
@@ -209,7 +207,7 @@ double steps_in(const LayerOptics& layer, double n_above)
     return extinction > 0 && depth > 0 ? 4 * index * index * depth * extinction : 0;
 }
 
-void refuse_endless_walks(const Stack& stack, std::uint64_t photons)
+void check_cost(const Stack& stack, std::uint64_t photons)
 {
     double steps = 0;
     for (const LayerOptics& layer : stack.layers)
@@ -219,9 +217,9 @@ void refuse_endless_walks(const Stack& stack, std::uint64_t photons)
         return;
     const std::string what =
         std::isinf(steps)
-            ? "nothing ends a photon's walk through a layer without absorption and end"
-            : fmt::format("{} photons of about {:.0e} steps each would walk for hours", photons, steps);
-    const double digit = std::pow(10, std::floor(std::log10(allowed))); // the leading one is enough
+            ? "a photon's walk through an infinite layer without absorption never ends"
+            : fmt::format("{} photons of about {:.0e} steps each would take hours", photons, steps);
+    const double digit = std::pow(10, std::floor(std::log10(allowed))); // round to one significant digit
     throw base::InputError("monte-carlo", what,
                            allowed >= 1000 ? fmt::format("use {:.0f} photons or fewer, or adding-doubling",
                                                          std::floor(allowed / digit) * digit)
@@ -234,7 +232,7 @@ Response monte_carlo(const Stack& stack, const ReflectanceOptions& options)
 {
     constexpr std::uint64_t per_batch = 10'000;
     const std::uint64_t photons = std::max<std::uint64_t>(options.photons, 1);
-    refuse_endless_walks(stack, photons);
+    check_cost(stack, photons);
     const std::uint64_t batches = (photons + per_batch - 1) / per_batch;
     std::vector<Tally> tallies(batches);
     std::atomic<std::uint64_t> next{0};
@@ -261,7 +259,7 @@ Response monte_carlo(const Stack& stack, const ReflectanceOptions& options)
     work();
     threads.clear(); // joins
 
-    // Summed in the order of the batches, so that the threads' order does not show.
+    // Summed in the order of the batches, so that the result does not depend on the threads' order.
     Tally total;
     total.absorbed.assign(stack.layers.size(), 0);
     for (const Tally& tally : tallies) {

@@ -25,7 +25,7 @@ double boundary(double n_from, double n_to, DiffuseFresnel form)
 // ---- the paper's own equations
 // -----------------------------------------------------------------------------------
 
-// What eqs. (2) and (3) say of one layer, without the factor of the upper boundary.
+// Eqs. (2) and (3) for one layer, without the factor of the upper boundary.
 struct PaperLayer
 {
     double reflected, transmitted;
@@ -47,8 +47,7 @@ PaperLayer paper_layer(const LayerOptics& layer, double lower_boundary, Reflecta
     return {scattered + lower_boundary * left * left, left * (1 - lower_boundary)};
 }
 
-// The light that passes one layer is what meets the next; the upper boundary's factor stands before the whole
-// sum.
+// The light transmitted by one layer enters the next; the upper boundary's factor multiplies the whole sum.
 Response paper_response(const Stack& stack, ReflectanceModel model, double specular, DiffuseFresnel form)
 {
     const auto& layers = stack.layers;
@@ -62,8 +61,8 @@ Response paper_response(const Stack& stack, ReflectanceModel model, double specu
         response.absorbed.push_back((1 - specular) * lost);
         incoming *= layer.transmitted;
     }
-    // Eq. (3) weights the sum with the light that gets out through the upper boundary. The bounded forms must
-    // not weight it with more than what got in: Exponential takes that, Clamped the smaller of the two.
+    // Eq. (3) weights the sum with the upper boundary's transmittance from inside. The bounded models must
+    // not use a weight above the transmittance from outside: Exponential uses that one, Clamped the smaller.
     const double back_inside = layers.empty() ? 0 : boundary(layers.front().n, stack.n_above, form);
     double lost_at_top = back_inside;
     if (model == ReflectanceModel::Exponential)
@@ -91,11 +90,11 @@ Element layer_element(const LayerOptics& layer, ReflectanceModel model, const st
     if (model == ReflectanceModel::TwoStreamPaper)
         return slab(s * backward_fraction(layer.g), a, d);
     if (model == ReflectanceModel::Calibrated) {
-        // Fitted to the photon walk on 48 stacks like skin; its error on 48 others is in docs/optics.md.
+        // Fitted to the photon walk on 48 skin-like stacks; docs/optics.md gives the error on 48 others.
         return a + s > 0 ? slab(c[0] * s * (s / (s + c[1] * a)), a * (c[2] - c[3] * (a / (a + s))), d)
                          : slab(0, 0, d);
     }
-    // Eddington's S turns negative where absorption rules; there nothing scatters back.
+    // Eddington's S is negative where absorption dominates; S is 0 there.
     return slab(std::max(0.0, 0.75 * s - 0.25 * a), 2 * a, d);
 }
 
@@ -116,8 +115,8 @@ std::vector<Element> elements(const Stack& stack, ReflectanceModel model, double
     return result;
 }
 
-// 1 - r_up r_down of the light that goes to and fro between two elements. What leaves through either is a
-// lower bound of it, which keeps the sum finite when both reflectances round to 1.
+// 1 - r_up r_down for light between two elements. The transmittance of either element is a lower bound, which
+// keeps the sum finite when both reflectances round to 1.
 double round_trip_loss(const Element& upper, const Element& lower)
 {
     return std::max({1 - upper.r_bottom * lower.r_top, upper.t_up, lower.t_down, 1e-300});
@@ -127,7 +126,7 @@ Response two_stream(const Stack& stack, ReflectanceModel model, double specular,
                     const ReflectanceOptions& options)
 {
     const std::vector<Element> list = elements(stack, model, specular, options);
-    std::vector<Element> rest(list.size() + 1); // element i and all that lies under it
+    std::vector<Element> rest(list.size() + 1); // rest[i]: element i and everything under it
     for (std::size_t i = list.size(); i-- > 0;)
         rest[i] = over(list[i], rest[i + 1]);
 
@@ -188,7 +187,7 @@ ReflectanceModel reflectance_model_named(std::string_view wanted)
     for (ReflectanceModel model : all_reflectance_models())
         known.push_back(name(model));
     throw base::InputError(wanted, "not a reflectance model",
-                           fmt::format("known are {}", fmt::join(known, ", ")));
+                           fmt::format("give one of {}", fmt::join(known, ", ")));
 }
 
 double specular_reflectance(const Stack& stack, const ReflectanceOptions& options)
@@ -221,7 +220,7 @@ std::vector<double> diffuse_color(const SkinLayers& tissue, ReflectanceModel mod
     std::vector<double> color;
     ReflectanceOptions channel = options;
     for (std::size_t c = 0; c < tissue.channels(); ++c) {
-        channel.seed = options.seed + c; // or the photons' noise would add up over a spectrum
+        channel.seed = options.seed + c; // independent noise: with one seed it would add up over a spectrum
         color.push_back(reflectance(tissue.channel(c), model, channel).r_without_specular);
     }
     return color;
@@ -245,7 +244,7 @@ Element slab(double S, double K, double thickness_mm)
 {
     // R = (1-e)/((a+b)-(a-b)e), T = 2 b exp(-bSd)/(same) with a = (S+K)/S, b = sqrt(a^2-1), e = exp(-2bSd),
     // multiplied by S and divided by kappa = bS = sqrt(K(K+2S)), so that neither S = 0 nor K = 0 is special.
-    const double d = std::min(thickness_mm, 1e30); // infinite: far past any effect, without inf/inf
+    const double d = std::min(thickness_mm, 1e30); // 1e30 represents infinity and avoids inf/inf
     const double kappa = std::sqrt(K * (K + 2 * S));
     const double x = 2 * kappa * d;
     const double f = x > 0 ? -std::expm1(-x) / kappa : 2 * d; // -> 2 d without absorption

@@ -1,5 +1,5 @@
-// How much light layered tissue gives back: every model, from the printed equations to a photon
-// walk, behind one interface. All take layers at one wavelength; equations are numbered as in docs/optics.md.
+// Reflectance of layered tissue: every model, from the printed equations to a photon walk, behind one
+// interface. All take layers at one wavelength; equations are numbered as in docs/optics.md.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -18,8 +18,8 @@ enum class ReflectanceModel : int
 {
     Published =
         shared::REFLECTANCE_PUBLISHED, // eqs. (2), (3) exactly as printed; leaves 0..1 outside their domain
-    Clamped = shared::REFLECTANCE_CLAMPED,         // the same with each thickness limited to the domain
-    Exponential = shared::REFLECTANCE_EXPONENTIAL, // the same with exponentials for the linear attenuation
+    Clamped = shared::REFLECTANCE_CLAMPED,         // eqs. (2), (3), each thickness clamped to the domain
+    Exponential = shared::REFLECTANCE_EXPONENTIAL, // eqs. (2), (3), exponential instead of linear attenuation
     TwoStreamPaper = shared::REFLECTANCE_TWO_STREAM_PAPER, // Kubelka-Munk layers with the paper's S = P
                                                            // sigma_s', K = sigma_a; adding
     TwoStream = shared::REFLECTANCE_TWO_STREAM, // Kubelka-Munk layers with Eddington's S = 3/4 sigma_s' - 1/4
@@ -33,7 +33,7 @@ enum class ReflectanceModel : int
 enum class Incidence
 {
     Diffuse,
-    Normal, // analytic models: the light is diffuse once inside
+    Normal, // analytic models: light is diffuse inside the tissue
 };
 
 enum class DiffuseFresnel
@@ -42,37 +42,36 @@ enum class DiffuseFresnel
     Polynomial,
 };
 
-/// Where adding-doubling's angles lie: Gauss-Legendre nodes of each panel, in the cosine of the thinnest
-/// medium that carries the light there, in which Fresnel's formulas are smooth; or in that of the densest, as
-/// Prahl 1995 has them, which converges slowly at the critical angle and is how his tables were made.
+/// The variable of adding-doubling's Gauss-Legendre nodes in each panel.
 enum class Quadrature
 {
-    Smooth,
-    Slab,
+    Smooth, // cosine in the medium of least index that carries the light; Fresnel's formulas are smooth in it
+    Slab,   // cosine in the medium of greatest index, as in Prahl 1995 and his tables; converges slowly at
+            // the critical angle
 };
 
 struct ReflectanceOptions
 {
     Incidence incidence = Incidence::Diffuse;
-    DiffuseFresnel fresnel = DiffuseFresnel::Exact; // analytic models
+    DiffuseFresnel fresnel = DiffuseFresnel::Exact; // used by the analytic models
     int angles = 8;                                 // adding-doubling, per panel
     Quadrature quadrature = Quadrature::Smooth;     // adding-doubling
-    /// calibrated: S = c0 s^2 / (s + c1 a), K = a (c2 - c3 a / (a + s)) with a = sigma_a, s = sigma_s'. What
-    /// `cicatrix bake --calibrate` found; shaders/lib/reflectance.glsl has the same. All >= 0, c2 >= c3.
+    /// Calibrated: S = c0 s^2 / (s + c1 a), K = a (c2 - c3 a / (a + s)) with a = sigma_a, s = sigma_s'. All
+    /// >= 0, c2 >= c3. Fitted by `cicatrix bake --calibrate`; shaders/lib/reflectance.glsl has equal values.
     std::array<double, 4> calibration{.6433, 2.2131, 1.9179, .7631};
     std::uint64_t photons = 1'000'000, seed = 1; // Monte Carlo
     unsigned threads = 0;                        // Monte Carlo; 0: one per core
-    std::function<void(double)> progress = {};   // the finished share, by one thread at a time
+    std::function<void(double)> progress = {};   // gets the finished share 0..1, from one thread at a time
 };
 
 struct Response
 {
     double r = 0;                  // all reflected light
-    double r_without_specular = 0; // less what the first surface alone reflects
-    double t = 0;                  // into the medium below
+    double r_without_specular = 0; // r minus specular_reflectance()
+    double t = 0;                  // transmitted into the medium below
     std::vector<double> absorbed =
-        {};                    // per layer; first three models: whatever they neither return nor pass on
-    double standard_error = 0; // of r; 0 where nothing is random
+        {};                    // per layer; first three models: what is neither reflected nor transmitted
+    double standard_error = 0; // of r; 0 for deterministic models
 };
 
 /// All models, from the crudest to the reference.
@@ -80,24 +79,23 @@ std::span<const ReflectanceModel> all_reflectance_models();
 /// Name on the command line and in JSON: "published", "clamped", "exponential", "two-stream-paper",
 /// "two-stream", ...
 std::string_view name(ReflectanceModel model);
-/// Throws base::InputError, naming the known ones.
+/// Throws base::InputError that lists the known names.
 ReflectanceModel reflectance_model_named(std::string_view name);
 
-/// For TwoStreamPaper, TwoStream and Calibrated, for sigma in 0..1e6, thickness in 0..1e9 or infinite, n
-/// in 1..3, g in -1..1: 0 <= r, t; r + t <= 1 (rounding: 1e-14); r + t = 1 without absorption, within 1e-12;
-/// a layer split in two changes nothing. Clamped and Exponential keep the bounds only, Published keeps
-/// nothing. AddingDoubling keeps
-/// all of it: r + t <= 1 within 1e-11, = 1 without absorption within 1e-12, a split layer within 1e-9.
+/// Guarantees for sigma in 0..1e6, thickness in 0..1e9 or infinite, n in 1..3, g in -1..1:
+/// TwoStreamPaper, TwoStream, Calibrated: 0 <= r, t; r + t <= 1 (rounding: 1e-14); r + t = 1 without
+/// absorption, within 1e-12; splitting a layer in two changes nothing. AddingDoubling: the same with r + t <=
+/// 1 within 1e-11 and a split layer within 1e-9. Clamped, Exponential: the bounds only. Published: none.
 Response reflectance(const Stack& stack, ReflectanceModel model, const ReflectanceOptions& options = {});
 
-/// What the first surface alone reflects.
+/// Reflectance of the first surface alone.
 double specular_reflectance(const Stack& stack, const ReflectanceOptions& options = {});
 
 /// r_without_specular of every channel.
 std::vector<double> diffuse_color(const SkinLayers& tissue, ReflectanceModel model,
                                   const ReflectanceOptions& options = {});
 
-/// A layer thicker than the printed equations allow: there T(d) < 0.
+/// A layer that is thicker than the domain of the printed equations, so that T(d) < 0.
 struct OutsideDomain
 {
     std::size_t layer, channel;

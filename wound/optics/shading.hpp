@@ -1,6 +1,6 @@
-// Light on a point of skin: section 5 of Choi & Chin 2014 in double precision, each equation as printed and
-// mended. The float versions that draw are in shaders/lib/; a test compares the two. docs/shading.md says
-// what was mended and why.
+// Shading of a point of skin: section 5 of Choi & Chin 2014 in double precision, each equation as printed and
+// corrected. The renderer's float versions are in shaders/lib/; a test compares the two. docs/shading.md says
+// what was corrected and why.
 //
 // (8)  C_L = C (rho_d max(cos,0) + rho_ts / (alpha d + beta)^gamma) + I max(cos,0) rho_s f_ward
 //
@@ -32,12 +32,12 @@ enum class TranslucencyModel : std::uint32_t
 };
 enum class BlendModel : std::uint32_t
 {
-    Published = shared::BLEND_PUBLISHED, // eq. (4): at r = 1 it is .2 W + .4 R + .4 S
-    Corrected = shared::BLEND_CORRECTED, // the same terms, W at r = 0 and S at r = 1
+    Published = shared::BLEND_PUBLISHED, // eq. (4); .2 W + .4 R + .4 S at r = 1
+    Corrected = shared::BLEND_CORRECTED, // the terms of eq. (4), changed to be W at r = 0 and S at r = 1
 };
 
-/// How a point is shaded: which terms of eq. (8) there are, by which models, with which coefficients. The
-/// coefficients' defaults are the paper's, the models those that keep energy.
+/// The terms of eq. (8), their models and coefficients. Default coefficients are the paper's; default models
+/// conserve energy.
 struct Shading
 {
     bool lambert = true, translucency = true, ward = true;
@@ -48,75 +48,75 @@ struct Shading
     double rho_d = 0.7, rho_ts = 0.7, rho_s = 0.8; // diffuse, translucent, specular; 0..1
     double alpha = 0.2, beta = 0.75, gamma = 10;   // eq. (6), distances in the paper's unit
     double alpha_x = 0.4, alpha_y = 0.4; // standard deviation of the slope along tangent and bitangent
-    base::Color ambient{0, 0, 0};        // linear radiance of the surroundings; 0 leaves the term out
+    base::Color ambient{0, 0, 0};        // linear radiance of the surroundings; 0 disables the term
 
-    /// W: the weight up to which the brightest point, facing the light, returns no more than the light brings
-    /// it: rho_d + rho_ts W = 1.
+    /// W, the largest translucent weight at which a point that faces the light reflects no more light than it
+    /// receives: rho_d + rho_ts W = 1.
     double translucency_bound() const;
     bool operator==(const Shading&) const = default;
 };
 
 /// Section 5 as printed: its equations and coefficients, no shadow, no ambient light.
 Shading published_shading();
-/// Mended equations with coefficients for skin and a dim room around it, chosen by eye: rho_s = .2 returns 5
-/// % of the light, near skin's Fresnel reflectance (2.8 % at normal incidence for n = 1.4, more when
-/// grazing); the paper's .8 looks like glazed china.
+/// Corrected equations with coefficients for skin in a dim room, chosen by eye: rho_s = .2 reflects 5 % of
+/// the light, near skin's Fresnel reflectance (2.8 % at normal incidence for n = 1.4, more at grazing
+/// incidence); the paper's .8 looks like glazed china.
 Shading skin_shading();
 
-/// From metres to the d of eq. (6), max(0, scale * metres + offset). In the paper's unit of length the object
-/// is 2.2 wide and the light is at 2.
+/// Converts metres to the d of eq. (6): max(0, scale * metres + offset). In the paper's unit of length the
+/// object is 2.2 wide and the light is at distance 2.
 struct DistanceMap
 {
     double scale = 1; // paper's units per metre
     double offset = 0;
 };
-/// Brings an object of this width, lit from this distance to its middle, to the paper's set-up. When light
-/// and object already stand in the paper's proportion the offset is 0.
+/// Maps an object of this width, and a light at this distance from its middle, to the paper's set-up. The
+/// offset is 0 when width and distance have the paper's ratio.
 DistanceMap paper_distance(double object_width_m, double light_distance_m);
 
 enum class LightKind : std::uint32_t
 {
     Directional = shared::LIGHT_DIRECTIONAL,
     Point = shared::LIGHT_POINT,                               // inverse square
-    PointWithoutFalloff = shared::LIGHT_POINT_WITHOUT_FALLOFF, // as eq. (8) has it
+    PointWithoutFalloff = shared::LIGHT_POINT_WITHOUT_FALLOFF, // as in eq. (8)
 };
 
 struct Light
 {
     LightKind kind = LightKind::Point;
-    cv::Vec3d position{0, 0, 1};  // m; of a directional light: a point of the plane from which d is measured
+    cv::Vec3d position{0, 0, 1};  // m; directional: a point of the plane from which d is measured
     cv::Vec3d direction{0, 0, 1}; // unit, towards the light; directional only
-    // I: radiance of a white diffuser that faces the light at the reference distance (irradiance / pi).
+    /// I: radiance of a white diffuser that faces the light at the reference distance (irradiance / pi).
     base::Color strength{1, 1, 1};
     double reference_distance_m = 1;
     DistanceMap translucency_distance;
 };
 
-/// Distances d, in the paper's unit, from a light to the points of a ball.
+/// Smallest and largest distance d, in the paper's unit, from a light to the points of a ball.
 struct DistanceRange
 {
     double min = 0, max = 0;
 };
 DistanceRange translucency_distances(const Light& light, const cv::Vec3d& center, double radius_m);
 
-/// Throw base::InputError naming `where` and the field: what is not finite or outside its range (gamma
-/// below 0 is), and alpha d + beta <= 0 for a distance that can occur.
+/// Throw base::InputError naming `where` and the field when a value is not finite or out of range, or when
+/// alpha d + beta <= 0 for a distance in `reachable`.
 void check_shading(const Shading& shading, const DistanceRange& reachable, std::string_view where);
 void check_light(const Light& light, std::string_view where);
 
-/// Ward's reflection function, 1/sr, without rho_s. 0 when either direction is at or below the horizon;
-/// elevations under `ward_min_cosine` count as that, which keeps every model finite.
+/// Ward's reflection function, 1/sr, without rho_s. 0 when either direction is at or below the horizon.
+/// Cosines are clamped to at least `ward_min_cosine`, which keeps every model finite.
 inline constexpr double ward_min_cosine = 1e-4;
 double ward(WardModel model, double alpha_x, double alpha_y, const cv::Vec3d& incident,
             const cv::Vec3d& outgoing);
 
-/// The share of light from this direction that ward() returns: f cos integrated over outgoing directions.
+/// The share of light from this direction that ward() reflects: f cos integrated over outgoing directions.
 double ward_albedo(WardModel model, double alpha_x, double alpha_y, const cv::Vec3d& incident);
 
 /// Eq. (6) at distance d (paper's unit); alpha d + beta > 0.
 double translucency(const Shading& shading, double d);
 
-/// Eq. (4). recovery is clamped to 0..1 before its root, whose slope at 0 is infinite.
+/// Eq. (4). `recovery` is clamped to 0..1.
 base::Color blend(BlendModel model, const base::Color& wound, const base::Color& reflectance,
                   const base::Color& skin, double recovery);
 
@@ -124,11 +124,11 @@ struct ShadedPoint
 {
     cv::Vec3d position;                     // m
     cv::Matx33d frame = cv::Matx33d::eye(); // rows: tangent, bitangent, normal; orthonormal
-    cv::Vec3d to_viewer{0, 0, 1};           // unit, in the space of position
+    cv::Vec3d to_viewer{0, 0, 1};           // unit, in the space of `position`
     base::Color albedo{1, 1, 1};            // C of eq. (4)
 };
-/// Eq. (8) for one light. `visibility` 0..1 is the shadow: it darkens what comes straight from the light and,
-/// as in the paper, leaves the translucent term alone.
+/// Eq. (8) for one light. `visibility` (0 in full shadow .. 1) multiplies the direct light; as in the paper
+/// it does not affect the translucent term.
 base::Color shade(const Shading& shading, const Light& light, const ShadedPoint& point, double visibility);
 
 } // namespace optics

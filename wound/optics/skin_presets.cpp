@@ -22,7 +22,7 @@ Layer dermis_layer(std::string name, const Chromophores& content, double thickne
     return chromophore_layer(std::move(name), content, anisotropy, dermis_index, thickness_mm);
 }
 
-// Loose, wet and full of capillaries: 5 to 15 % blood, and little collagen to scatter.
+// Loose, wet and full of capillaries: 5 to 15 % blood, and little collagen that scatters.
 constexpr Chromophores granulation{.blood = .1,
                                    .oxygenation = .7,
                                    .water = .8,
@@ -30,7 +30,7 @@ constexpr Chromophores granulation{.blood = .1,
                                    .scattering_500nm = 3,
                                    .scattering_power = 1.5};
 
-// Fresh blood that loses its oxygen within hours and its thickness, as clot and crust, within days.
+// Fresh blood: loses its oxygen within hours and, as clot and crust, its thickness within days.
 Layer blood_film(double day)
 {
     const Chromophores blood{.blood = 1,
@@ -46,13 +46,13 @@ double months_since_closure(double day, double closure_day)
     return std::max(0.0, day - closure_day) / days_per_month;
 }
 
-// Epithelium starts as a thin pale sheet and becomes skin's with one turnover of the epidermis, about 28
-// days. What has grown evenly since the injury is on average half as old, and from the closure on it ages
-// with time.
+// 0..1. Epithelium starts thin and pale and matures with one turnover of the epidermis, about 28 days. Until
+// closure it grows evenly, so its mean age is half the time since the injury; then it ages with time.
 double epithelium_maturity(double day, double closure_day)
 {
     return 1 - std::exp(-(day - std::min(day, closure_day) / 2) / 28);
 }
+// Relative to healthy epidermis.
 double epithelium_thickness(double day, double closure_day)
 {
     return .35 + .65 * epithelium_maturity(day, closure_day);
@@ -63,7 +63,8 @@ Layer new_epithelium(const ChromophoreSkin& skin, double day, double closure_day
     const double months = months_since_closure(day, closure_day);
     const double darkening = .35 * std::exp(-.235 * months) *
                              (1 - std::exp(-2 * months)); // measured: +24 % at 1, +15 % at 3 months
-    // All of the pigment is back at the closure, from where the measured excess counts, however thin it lies.
+    // Pigment per area is complete at closure, whatever the thickness; the measured excess applies after
+    // that.
     const double pigment = .3 + .7 * std::min(1., std::max(day, 0.) / closure_day);
     const double thickness = epithelium_thickness(day, closure_day);
     Chromophores content = skin.epidermis;
@@ -71,12 +72,12 @@ Layer new_epithelium(const ChromophoreSkin& skin, double day, double closure_day
     return epidermis_layer(content, skin.epidermis_mm * thickness);
 }
 
-// Before the closure the ring is granulation tissue that loses its vessels; from then on the scar's excess
-// over the skin beside it fades. Redness and pigment of the scar: Danielsen et al. 2013.
-double scar_blood(double skins_blood, double day, double closure_day)
+// Blood fraction. Before closure the ring is granulation tissue that loses its vessels; afterwards the scar's
+// excess over the adjacent skin fades. Redness and pigment of the scar: Danielsen et al. 2013.
+double scar_blood(double skin_blood, double day, double closure_day)
 {
     const double redness = 2.055 / (1 + months_since_closure(day, closure_day) / 2.37);
-    const double scar = std::min(granulation.blood, skins_blood * (1 + redness));
+    const double scar = std::min(granulation.blood, skin_blood * (1 + redness));
     return std::lerp(granulation.blood, scar, std::min(day / closure_day, 1.0));
 }
 
@@ -99,8 +100,7 @@ SkinLayers ChromophoreSkin::layers() const
 
 ChromophoreSkin skin(SkinTone tone)
 {
-    // melanosomes, blood, oxygenation, baseline and the scattering relative to excised skin (Salomatina et
-    // al. 2006), fitted.
+    // Fitted values; `scattering` is relative to excised skin (Salomatina et al. 2006).
     struct Fit
     {
         double melanosomes, blood, oxygenation, baseline, scattering;
@@ -140,8 +140,8 @@ TissueDay open_bed(const HealingTissue& tissue, double day, double depth_scale)
 
 namespace {
 
-// The layer under the first is what has regrown, with a scar's excess of blood; the first covers it, as thick
-// as it was: in a table it holds most of the skin's colour, whatever that is.
+// The regrown tissue is the second layer with a scar's excess of blood. The first layer covers it at full
+// thickness, because in a table it holds most of the skin's colour.
 TissueDay covered_table(const SkinLayers& table, double day, double closure_day)
 {
     TissueDay result = restored_skin(table, 0);
@@ -176,8 +176,8 @@ TissueDay covered_bed(const HealingTissue& tissue, double day, double closure_da
 
 SkinLayers bruise(const ChromophoreSkin& skin, double day)
 {
-    // The blood in the tissue loses its oxygen in a day and is broken down with a time constant of 5 days;
-    // bilirubin from it peaks about day 6 and is carried off (colours by day: Langlois & Gresham 1991).
+    // Extravasated blood loses its oxygen in a day and breaks down with a time constant of 5 days; its
+    // bilirubin peaks about day 6 and is cleared (colours by day: Langlois & Gresham 1991).
     const double left = std::exp(-day / 5), freed = day / 6 * std::exp(1 - day / 6);
     Chromophores content = skin.dermis;
     const double spilt = .06 * left;
@@ -186,7 +186,7 @@ SkinLayers bruise(const ChromophoreSkin& skin, double day)
     content.blood += spilt;
     content.bilirubin_mmol_l = .15 * freed;
     SkinLayers result = skin.layers();
-    constexpr double depth_mm = .3; // of the pool under the epidermis
+    constexpr double depth_mm = .3; // thickness of the blood pool under the epidermis
     result.layers[1].thickness_mm = depth_mm;
     result.layers.insert(result.layers.begin() + 2,
                          dermis_layer("bruise", content, skin.dermis_mm - depth_mm));
@@ -216,14 +216,14 @@ constexpr std::array<HealingPreset, 4> healing_presets{{
     {"dark", [] { return HealingTissue(skin(SkinTone::Dark)); }},
 }};
 
-// Light skin that is hurt, on one day.
-struct HurtPreset
+// Injured light skin on one day.
+struct InjuredPreset
 {
     std::string_view name;
     SkinLayers (*tissue)(const ChromophoreSkin& light);
 };
 constexpr double wound_depth_mm = 1, wound_closure_day = 21;
-constexpr std::array<HurtPreset, 6> hurt_presets{{
+constexpr std::array<InjuredPreset, 6> injured_presets{{
     {"granulation", [](const ChromophoreSkin& s) { return layers_at(open_bed(s, 14, .5), wound_depth_mm); }},
     {"new-epithelium",
      [](const ChromophoreSkin& s) {
@@ -252,7 +252,7 @@ std::vector<std::string_view> healing_tissue_names()
 std::vector<std::string_view> tissue_preset_names()
 {
     std::vector<std::string_view> names = healing_tissue_names();
-    for (const HurtPreset& preset : hurt_presets)
+    for (const InjuredPreset& preset : injured_presets)
         names.push_back(preset.name);
     return names;
 }
@@ -271,7 +271,7 @@ std::optional<SkinLayers> tissue_preset(std::string_view name)
         const auto* table = std::get_if<SkinLayers>(&*tissue);
         return table ? *table : std::get<ChromophoreSkin>(*tissue).layers();
     }
-    for (const HurtPreset& preset : hurt_presets)
+    for (const InjuredPreset& preset : injured_presets)
         if (preset.name == name)
             return preset.tissue(skin(SkinTone::Light));
     return {};

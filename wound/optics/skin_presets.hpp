@@ -1,5 +1,6 @@
-// Skin by its chromophores, and how a wound in it changes from day to day: clot, granulation, new epithelium,
-// scar, bruise. Every number's source, and what was chosen by eye, is in docs/optics.md, section 6.
+// Skin described by its chromophores, and how a wound in it changes from day to day: clot, granulation, new
+// epithelium, scar, bruise. docs/optics.md, section 6, names each number's source or says that it was chosen
+// by eye.
 #pragma once
 #include <optional>
 #include <span>
@@ -28,35 +29,35 @@ enum class SkinTone
 };
 ChromophoreSkin skin(SkinTone tone);
 
-/// Tissue without and with chromophores: what an optical table says, or what the contents say.
+/// Tissue given by a table of coefficients, or by its chromophores.
 using HealingTissue = std::variant<SkinLayers, ChromophoreSkin>;
 
-/// The open wound `day` days after the injury. Table tissue: the paper's restored_skin().
+/// The open wound `day` days after the injury. For SkinLayers: the paper's restored_skin().
 TissueDay open_bed(const HealingTissue& tissue, double day, double depth_scale);
 
-/// Where new epithelium has covered the wound: the pink ring, and after `closure_day` the scar. A table of
-/// three channels, taken as 610, 540 and 450 nm, or a spectrum gets the excess of blood that
-/// the light preset's scar has; of other tables nothing is known but that they are whole again.
+/// The wound under new epithelium: the pink ring, and after `closure_day` the scar. SkinLayers with three
+/// channels, taken as 610, 540 and 450 nm, or with a spectrum get the excess of blood of the light preset's
+/// scar; other SkinLayers are restored unchanged.
 TissueDay covered_bed(const HealingTissue& tissue, double day, double closure_day);
 
 /// Haemorrhage under uninjured skin: blue-red, then yellow with bilirubin, gone after about three weeks.
 SkinLayers bruise(const ChromophoreSkin& skin, double day);
 
-/// Skin as a spectrophotometer saw it, specular light excluded.
+/// Skin colour measured by a spectrophotometer, specular light excluded.
 struct MeasuredSkin
 {
-    std::string_view preset; // fitted to it
+    std::string_view preset; // the preset that was fitted to this measurement
     std::string_view site, source;
     base::Lab lab; // D65, 10 degrees
 };
 std::span<const MeasuredSkin> measured_skins();
 
-/// "table1", "light", "medium", "dark": skin that can heal.
+/// "table1", "light", "medium", "dark".
 std::vector<std::string_view> healing_tissue_names();
 std::optional<HealingTissue> healing_tissue_named(std::string_view name);
 
-/// Those and "granulation", "new-epithelium", "scar" (1 month), "bruise-1", "bruise-6", "bruise-12" (days),
-/// on light skin.
+/// healing_tissue_names() and, on light skin, "granulation", "new-epithelium", "scar" (1 month), "bruise-1",
+/// "bruise-6", "bruise-12" (days).
 std::vector<std::string_view> tissue_preset_names();
 std::optional<SkinLayers> tissue_preset(std::string_view name);
 

@@ -69,7 +69,7 @@ base::Color linear_rgb(std::span<const double> channels)
 base::Lab lab_10_degrees(const Spectrum& reflectance)
 {
     // Wyman, Sloan & Shirley 2013, "Simple analytic approximations to the CIE XYZ color matching functions":
-    // single lobes of the 1964 observer. D65's chromaticity comes out as (.3137, .3309), the tables' being
+    // single lobes of the 1964 observer. They give D65 the chromaticity (.3137, .3309); the tables give
     // (.3138, .3310).
     double xyz[3] = {}, white[3] = {};
     for (std::size_t i = 0; i < wavelength_count; ++i) {

@@ -1,5 +1,5 @@
-// Layered tissue as light sees it: what a layer absorbs and scatters, its refractive index and its thickness.
-// Coefficients are held per channel: three for RGB, one for a single wavelength, many for a spectrum.
+// Optical description of layered tissue: absorption, scattering, refractive index and thickness of each
+// layer. Coefficients are held per channel: three for RGB, one for a single wavelength, many for a spectrum.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -43,8 +43,8 @@ struct SkinLayers
     Stack channel(std::size_t index) const;
 };
 
-/// Table 1 of Choi & Chin 2014 as printed, read as mm^-1. The paper gives the dermis 1..4 mm and the
-/// subcutis 4..9 mm. The medium below has the subcutis' index: nothing comes back from there.
+/// Table 1 of Choi & Chin 2014 as printed, read as mm^-1. The paper's ranges: dermis 1..4 mm, subcutis 4..9
+/// mm. The medium below has the subcutis' index, so it reflects nothing.
 SkinLayers table1(double epidermis_mm = 0.2, double dermis_mm = 1, double subcutis_mm = 4);
 
 } // namespace optics

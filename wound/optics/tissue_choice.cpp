@@ -16,12 +16,12 @@ namespace {
 SkinLayers read_unless_missing(const std::string& name, const std::vector<std::string_view>& presets)
 {
     if (!std::filesystem::exists(name))
-        throw InputError(name, "there is neither such a file nor such a preset here",
+        throw InputError(name, "is neither a file nor a preset",
                          fmt::format("name a tissue file or one of {}", fmt::join(presets, ", ")));
     return read_tissue(name);
 }
 
-// The table's axis goes down to the last layer: with more than this above it, a wound would be one texel.
+// The reflectance table's depth axis reaches to the last layer; above 100 mm a wound would cover one texel.
 void require_wounds_reach(const SkinLayers& tissue, const std::string& file)
 {
     constexpr double thickest_mm = 100;
@@ -43,7 +43,7 @@ HealingTissue healing_tissue_or_file(const std::string& name)
     SkinLayers tissue = read_unless_missing(name, healing_tissue_names());
     if (channel_weights(tissue.channels()).empty())
         throw InputError(name, fmt::format("has {} channels", tissue.channels()),
-                         fmt::format("a colour takes 1, 3 or {}", wavelength_count));
+                         fmt::format("give 1, 3 or {} channels", wavelength_count));
     require_wounds_reach(tissue, name);
     return tissue;
 }
@@ -60,7 +60,7 @@ std::optional<std::string> domain_note(const SkinLayers& tissue)
     if (outside == 0)
         return {};
     return fmt::format("eqs. (2) and (3) as printed are outside their domain in {} of {} layers and "
-                       "channels: colours are off, often green (docs/optics.md)",
+                       "channels: colours are wrong, often green (docs/optics.md)",
                        outside, tissue.layers.size() * tissue.channels());
 }
 

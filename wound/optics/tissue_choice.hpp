@@ -1,4 +1,4 @@
-// Which tissue and which reflectance model: what a user may name, for the commands and for scenes alike.
+// Finds a tissue by the name that a user gives on the command line or in a scene.
 #pragma once
 #include <optional>
 #include <string>
@@ -8,16 +8,14 @@
 
 namespace optics {
 
-/// A preset that heals, or a tissue file; InputError that lists the presets when it is neither, and for a
-/// file in which no wound can be: its channels must be one, three or a spectrum, and every layer that has
-/// others under it at most 100 mm thick.
+/// A preset of healing_tissue_names(), or a tissue file with 1, 3 or wavelength_count channels whose layers,
+/// except the last, are at most 100 mm thick. Throws base::InputError otherwise.
 HealingTissue healing_tissue_or_file(const std::string& name);
 
 /// Any preset, or any tissue file.
 SkinLayers tissue_or_file(const std::string& name);
 
-/// What to tell of ReflectanceModel::Published on tissue with layers too thick for it; nothing when there is
-/// none.
+/// A note for the user when layers are too thick for ReflectanceModel::Published; nullopt when none is.
 std::optional<std::string> domain_note(const SkinLayers& tissue);
 SkinLayers layers_of(const HealingTissue& tissue); // without an injury
 

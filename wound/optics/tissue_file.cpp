@@ -76,7 +76,7 @@ Layer read_layer(const json& object, const std::string& where, double per_mm)
     if (const json* content = fields.get("chromophores")) {
         for (const char* field : {"sigma_a", "sigma_s_reduced", "sigma_s"})
             if (fields.has(field))
-                fields.fail(field, "stands beside chromophores", "give one or the other");
+                fields.fail(field, "is given beside chromophores", "give one or the other");
         layer = chromophore_layer(layer.name, read_chromophores(*content, fields.where("chromophores")),
                                   layer.g, layer.n, layer.thickness_mm);
     } else
@@ -85,7 +85,7 @@ Layer read_layer(const json& object, const std::string& where, double per_mm)
     return layer;
 }
 
-// A single number stands for all channels.
+// Repeats a single number for all channels.
 void broadcast(SkinLayers& tissue, const Fields& fields)
 {
     std::size_t count = 1;

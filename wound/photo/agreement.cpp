@@ -9,7 +9,7 @@ namespace wound {
 
 namespace {
 
-/// The mask moved, to the pixel, so that its centroid is the middle of a square of `side`.
+/// The mask moved by whole pixels so that its centroid is the middle of a square of `side` pixels.
 cv::Mat1b centered(const cv::Mat1b& mask, int side)
 {
     const cv::Moments moments = cv::moments(mask, true);

@@ -1,11 +1,11 @@
-// How well a predicted wound agrees with one observed on a later day, in photographs that nobody registered:
-// the two are laid centroid on centroid, so what is judged is size and shape, not place.
+// Agreement of a predicted wound with one observed on a later day. The photographs need no registration: the
+// centroids are aligned, so size and shape are compared, not position.
 #pragma once
 #include "wound/wound.hpp"
 
 namespace wound {
 
-/// Today's mask in the pixels of the photograph that the wound was prepared from.
+/// The mask predicted for this area ratio, in pixels of the photograph that the wound was prepared from.
 cv::Mat1b predicted_mask(const PreparedWound& wound, double area_ratio);
 
 struct ContourAgreement

@@ -31,7 +31,7 @@ cv::Mat1b surroundings(const CutProblem& problem)
     return outside;
 }
 
-/// 255 where a pixel's colour cluster is more at home near the seed than in the surroundings.
+/// 255 where a pixel's colour cluster is more frequent near the seed than in the surroundings.
 cv::Mat1b likely_wound(const CutProblem& problem, const cv::Mat1b& outside)
 {
     std::vector<cv::Vec3f> colors;
@@ -74,7 +74,7 @@ cv::Mat1b likely_wound(const CutProblem& problem, const cv::Mat1b& outside)
     return likely;
 }
 
-/// 255 where a guess cannot be so wrong that it is wound.
+/// 255 where a pixel is too far from the guess to be wound.
 cv::Mat1b far_from(const cv::Mat1b& guess)
 {
     const int reach = std::max(3, static_cast<int>(.15 * std::sqrt(cv::countNonZero(guess))));
@@ -115,7 +115,7 @@ cv::Mat1b solve(const CutProblem& problem)
     if (cv::countNonZero(seed) == 0 || cv::countNonZero(outside) == 0)
         return cv::Mat1b::zeros(labels.size());
 
-    cv::theRNG().state = 1; // GrabCut draws from it: the same photograph always gives the same mask
+    cv::theRNG().state = 1; // GrabCut uses it; the same photograph always gives the same mask
     cv::Mat background, foreground;
     cv::grabCut(problem.srgb, labels, {}, background, foreground, iterations, cv::GC_INIT_WITH_MASK);
     cv::Mat1b mask = (labels == cv::GC_FGD) | (labels == cv::GC_PR_FGD);
@@ -171,7 +171,7 @@ CutProblem pose(const cv::Mat3b& srgb, const cv::Rect& rect, cv::Point seed, int
         std::min(1., working_size / static_cast<double>(std::max(problem.frame.width, problem.frame.height)));
     cv::Mat3b small;
     cv::resize(srgb(problem.frame), small, {}, scale, scale, cv::INTER_AREA);
-    cv::medianBlur(small, problem.srgb, 5); // hairs, specular_highlights
+    cv::medianBlur(small, problem.srgb, 5); // removes hairs and specular highlights
     cv::Mat3f unit;
     problem.srgb.convertTo(unit, CV_32F, 1 / 255.);
     cv::cvtColor(unit, problem.lab, cv::COLOR_RGB2Lab);

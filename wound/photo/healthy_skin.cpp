@@ -15,7 +15,7 @@ namespace {
 
 using cv::Vec3f;
 
-/// Lightness and two colour differences: with log r, g, b an illumination change moves only the first.
+/// Log luminance, log r/g and log b/g: a change of illumination strength changes only the first.
 Vec3f features(const Vec3f& log_color)
 {
     const Vec3f linear{std::exp(log_color[0]), std::exp(log_color[1]), std::exp(log_color[2])};
@@ -43,8 +43,8 @@ struct SkinModel
     }
 };
 
-/// Drops what no skin looks like (grey cloth, a wall, leaves), unless hardly anything would remain: then the
-/// light was coloured.
+/// Removes samples without skin colour (grey cloth, a wall, leaves), unless less than an eighth would remain:
+/// then the light is coloured.
 void prefer_skin_colored(std::vector<Vec3f>& samples)
 {
     std::vector<Vec3f> skin_colored;
@@ -57,7 +57,7 @@ void prefer_skin_colored(std::vector<Vec3f>& samples)
 
 const Vec3f least_spread{.22f, .07f, .06f}, greatest_spread{.45f, .22f, .16f};
 
-/// Median and median deviation, refitted without what lies far off (background, shadow, clothes).
+/// Median and median absolute deviation, refitted without outliers (background, shadow, clothes).
 SkinModel fit(std::vector<Vec3f> samples)
 {
     SkinModel model{{}, greatest_spread};
@@ -76,13 +76,13 @@ SkinModel fit(std::vector<Vec3f> samples)
             if (cv::norm(model.deviation(sample)) < 3)
                 kept.push_back(sample);
         if (kept.size() < samples.size() / 3)
-            break; // nothing holds together: keep the plain median
+            break; // no cluster: keep the current median
         samples = std::move(kept);
     }
     return model;
 }
 
-/// Deviation from healthy skin after the best allowance for more or less blood.
+/// Deviation from healthy skin after subtracting the best-fitting amount of blood.
 float deviation_but_for_blood(const SkinModel& model, const Vec3f& log_color)
 {
     const Vec3f z = model.deviation(features(log_color));
@@ -91,7 +91,7 @@ float deviation_but_for_blood(const SkinModel& model, const Vec3f& log_color)
     return float(cv::norm(z + along * amount));
 }
 
-/// Cells of `region` that can be reached from the wound through cells of it.
+/// 255 in cells of `region` and `wound` that are connected to the wound.
 cv::Mat1b reachable(const cv::Mat1b& region, const cv::Mat1b& wound)
 {
     cv::Mat1i labels;
@@ -109,20 +109,20 @@ cv::Mat1b reachable(const cv::Mat1b& region, const cv::Mat1b& wound)
 }
 
 constexpr float darkest_skin =
-    -4.2f; // log luminance; below is shadow, hair, clothes or the photo's black frame
+    -4.2f; // log luminance; darker cells are shadow, hair, clothes or the photo's black frame
 
-/// What the steps below share.
+/// The inputs of the steps below.
 struct Surroundings
 {
     const cv::Mat3f& log_color;
     const cv::Mat1f &coverage, &valid;
     float reach;
     cv::Mat1b wound;
-    cv::Mat1f outside, within; // distances to the wound's border, cells
+    cv::Mat1f outside, within; // distances to the wound's border from outside and inside, cells
 
     bool has_data(int x, int y) const
     {
-        const int last = wound.rows - 3; // two cells of frame
+        const int last = wound.rows - 3; // excludes a frame of two cells
         return valid(y, x) > .98f && x > 1 && y > 1 && x <= last && y <= last;
     }
     bool may_be_skin(int x, int y) const
@@ -143,8 +143,8 @@ std::vector<Vec3f> skin_samples(const Surroundings& around)
     return samples;
 }
 
-/// Fills `skin.health` and `skin.rawness`; returns the cells outside the wound that are skin, healthy or
-/// inflamed.
+/// Fills `skin.health`, `skin.rawness` and `skin.foreignness`; returns 255 in cells outside the wound that
+/// are healthy or inflamed skin.
 cv::Mat1b judge(const Surroundings& around, const SkinModel& model, HealthySkin& skin)
 {
     cv::Mat1b is_skin(around.wound.size(), uchar(0));
@@ -159,7 +159,7 @@ cv::Mat1b judge(const Surroundings& around, const SkinModel& model, HealthySkin&
             } else if (around.may_be_skin(x, y)) {
                 const float foreign = deviation_but_for_blood(model, color);
                 const float near = std::exp(-around.outside(y, x) / (.3f * around.reach));
-                is_skin(y, x) = foreign < 3 + 4 * near ? 255 : 0; // anything may be seen at the rim
+                is_skin(y, x) = foreign < 3 + 4 * near ? 255 : 0; // tolerates more deviation near the rim
                 skin.health(y, x) = off < 3.5f ? std::exp(-.5f * off * off) : 0;
                 skin.foreignness(y, x) = base::smoothstep(2.2f, 4, foreign) *
                                          base::smoothstep(.35f, .1f, around.outside(y, x) / around.reach);
@@ -168,7 +168,7 @@ cv::Mat1b judge(const Surroundings& around, const SkinModel& model, HealthySkin&
     return is_skin;
 }
 
-/// Median over the cells that are healthy beyond doubt; false if there are none.
+/// Median over the cells of health above .3; false if there are none.
 bool find_color(const cv::Mat3f& log_color, const cv::Mat1f& health, Vec3f& color)
 {
     for (int k = 0; k < 3; ++k) {
@@ -184,7 +184,7 @@ bool find_color(const cv::Mat3f& log_color, const cv::Mat1f& health, Vec3f& colo
     return true;
 }
 
-/// Skin that goes on without a break from the wound outwards, specks (a hair, a highlight) closed.
+/// Skin connected to the wound, after closing specks (a hair, a highlight).
 cv::Mat1b continuous_skin(const Surroundings& around, const cv::Mat1b& is_skin)
 {
     cv::Mat1b skin;

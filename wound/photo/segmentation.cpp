@@ -18,8 +18,7 @@ constexpr int working_size = 400;    // pixels on the longer side
 constexpr double least_contrast = 5; // CIELAB distance across a wound's border, on average
 constexpr int least_side = 16;       // pixels of a photograph
 
-/// The one of several sizes around the seed in which the sharpest closed border is
-/// found.
+/// Of several rectangles around the seed, the one in which the border found has the highest contrast.
 cv::Rect best_rectangle(const cv::Mat3b& srgb, const cv::Rect& bounds, cv::Point seed)
 {
     constexpr int trial_size = 192;
@@ -44,7 +43,7 @@ cv::Rect best_rectangle(const cv::Mat3b& srgb, const cv::Rect& bounds, cv::Point
     return best;
 }
 
-/// Of picture_area(), found at a size at which it costs little.
+/// The bounding box of picture_area(), computed at reduced size.
 cv::Rect picture_bounds(const cv::Mat3b& srgb)
 {
     const double scale = std::min(1., 1024. / std::max(srgb.cols, srgb.rows));
@@ -56,20 +55,20 @@ cv::Rect picture_bounds(const cv::Mat3b& srgb)
            cv::Rect(cv::Point(), srgb.size());
 }
 
-/// 255 where `mask`, of `from`'s maps, says so, in the maps of `to`.
+/// `mask`, resampled from the maps of `from` to those of `to`.
 cv::Mat1b moved(const cv::Mat1b& mask, const CutProblem& from, const CutProblem& to)
 {
     const double there = double(from.srgb.cols) / from.frame.width; // map pixels per photograph pixel
     const double here = double(to.frame.width) / to.srgb.cols;
     const cv::Point2d offset = cv::Point2d(to.frame.tl() - from.frame.tl()) * there;
-    const double half = .5 * here * there - .5; // pixels' middles, not their corners, lie on each other
+    const double half = .5 * here * there - .5; // aligns the pixels' centres
     const cv::Matx23d inverse(here * there, 0, offset.x + half, 0, here * there, offset.y + half);
     cv::Mat1b result;
     cv::warpAffine(mask, result, inverse, to.srgb.size(), cv::INTER_NEAREST | cv::WARP_INVERSE_MAP);
     return result;
 }
 
-/// Other wounds are no part of the picture; their colours are taken for skin's, lest GrabCut learn them.
+/// Excludes other wounds from the picture and paints them in skin colour, so GrabCut does not learn them.
 void leave_out(CutProblem& problem, const cv::Mat1b& others)
 {
     problem.picture.setTo(0, others);
@@ -78,7 +77,7 @@ void leave_out(CutProblem& problem, const cv::Mat1b& others)
     problem.srgb.setTo(cv::mean(problem.srgb, around), others);
 }
 
-/// A candidate found in `field`, a tenth or so larger than it.
+/// The problem of a candidate found in `field`: its bounds with a margin of 15 % and 2 pixels on each side.
 CutProblem pose_around(const cv::Mat3b& srgb, const CutProblem& field, const WoundCandidate& candidate)
 {
     const double scale = double(field.frame.width) / field.srgb.cols;
@@ -91,7 +90,7 @@ CutProblem pose_around(const cv::Mat3b& srgb, const CutProblem& field, const Wou
     return pose(srgb, rect & field.frame, in_photograph(candidate.deepest), working_size);
 }
 
-/// One for every wound that the hints ask for; none where nothing looks like a wound.
+/// One problem for every wound that the hints select; none if nothing looks like a wound.
 std::vector<CutProblem> problems(const cv::Mat3b& srgb, const SegmentationHints& hints,
                                  const cv::Rect& bounds)
 {
@@ -105,7 +104,7 @@ std::vector<CutProblem> problems(const cv::Mat3b& srgb, const SegmentationHints&
     std::erase_if(candidates, [&](const WoundCandidate& c) {
         return 5 * (c.bounds & field.rect).area() < 4 * c.bounds.area();
     });
-    if (hints.rect && candidates.size() < 2) // the user has drawn its surroundings better
+    if (hints.rect && candidates.size() < 2) // the user's rectangle is better than a single candidate
         return {field};
     if (hints.seed && candidates.empty())
         return {pose(srgb, best_rectangle(srgb, bounds, seed), seed, working_size)};
@@ -179,13 +178,13 @@ cv::Mat1b segment(const cv::Mat3b& srgb, const SegmentationHints& hints, std::st
     if (bounds.width < least_side || bounds.height < least_side)
         no_wound(where, "the photograph is black");
     cv::Mat1b result = cv::Mat1b::zeros(srgb.size());
-    std::string_view why = "nothing stands out from the skin around it as wounds do";
+    std::string_view why = "no region stands out from the skin around it as a wound does";
     for (const CutProblem& problem : problems(srgb, hints, bounds)) {
         const cv::Mat1b mask = solve(problem);
         if (cv::countNonZero(mask) < 16) {
             why = "nothing near the seed differs from its surroundings";
         } else if (border_contrast(problem, mask).distance < least_contrast) {
-            why = "what was found has nearly its surroundings' colour";
+            why = "the region found has nearly the colour of its surroundings";
         } else {
             cv::Mat1f coverage;
             mask.convertTo(coverage, CV_32F, 1 / 255.);

@@ -11,21 +11,21 @@ namespace {
 
 using cv::Vec3f;
 
-/// 0..1 per pixel: how much of a highlight it is.
-cv::Mat1f find_glints(const cv::Mat3f& color, const cv::Mat1f& coverage, int width)
+/// Strength 0..1 of the highlight at each pixel.
+cv::Mat1f find_highlights(const cv::Mat3f& color, const cv::Mat1f& coverage, int width)
 {
     cv::Mat1f least(color.size()), highlight(color.size());
     for (int y = 0; y < color.rows; ++y)
         for (int x = 0; x < color.cols; ++x)
             least(y, x) = std::min({color(y, x)[0], color(y, x)[1], color(y, x)[2]});
-    // A lamp adds to all channels alike, so its spots stand out in the least of them. What lies under them is
-    // smooth: a quarter of the resolution will do.
+    // A lamp adds the same to all channels, so highlights stand out in the smallest channel. The rest of that
+    // channel is smooth, so a quarter of the resolution is enough for it.
     cv::Mat1f without_spots;
     cv::resize(least, without_spots, {}, .25, .25, cv::INTER_AREA);
     cv::morphologyEx(without_spots, without_spots, cv::MORPH_OPEN,
                      cv::Mat1b::ones(width / 4 + 1, width / 4 + 1));
     cv::resize(without_spots, without_spots, least.size(), 0, 0, cv::INTER_LINEAR);
-    cv::Mat1f inner; // at the border itself skin may show through the mask
+    cv::Mat1f inner; // coverage without the border, where the mask may contain skin
     cv::erode(coverage, inner, cv::Mat1b::ones(7, 7));
     for (int y = 0; y < color.rows; ++y)
         for (int x = 0; x < color.cols; ++x) {
@@ -44,7 +44,7 @@ cv::Mat1f find_glints(const cv::Mat3f& color, const cv::Mat1f& coverage, int wid
 void flatten_glints(cv::Mat3f& color, const cv::Mat1f& coverage, float radius)
 {
     const int width = 2 * std::clamp(int(.3f * radius), 2, 60) + 1;
-    cv::Mat1f highlight = find_glints(color, coverage, width);
+    cv::Mat1f highlight = find_highlights(color, coverage, width);
     if (cv::countNonZero(highlight) == 0)
         return;
     cv::dilate(highlight, highlight, cv::Mat1b::ones(5, 5));

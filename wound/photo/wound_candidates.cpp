@@ -16,16 +16,16 @@ using Outline = std::vector<cv::Point>;
 using Outlines = std::vector<Outline>;
 
 constexpr int level_count = 40;
-constexpr double least_share = 1e-3, most_share = .4; // of the picture's area
-constexpr float uneven_skin = 2;     // CIELAB units by which healthy skin differs from itself
-constexpr float strongest = 30;     // CIELAB units beyond which a border is no sharper
-constexpr double most_cut = .25;     // of a wound's border, by the picture's edge
-constexpr double least_score = 1;    // plain skin on a limb reaches .9
-constexpr double least_of_best = .15; // a second wound's score, relative to the best
-constexpr double nearly_best = .7;   // of the best's score: a region that has a say in its outline
-constexpr int least_of_largest = 20;  // parts of the largest wound's area, as in components()
+constexpr double least_share = 1e-3, most_share = .4; // a wound's share of the picture's area
+constexpr float uneven_skin = 2;                      // CIELAB units; contrast within healthy skin
+constexpr float strongest = 30;                       // CIELAB units; larger contrast counts as this
+constexpr double most_cut = .25;      // largest share of a wound's border near the picture's edge
+constexpr double least_score = 1;     // plain skin on a limb reaches .9
+constexpr double least_of_best = .15; // smallest score of a further wound, relative to the best
+constexpr double nearly_best = .7;    // smallest score, relative to the best, of a region that votes on it
+constexpr int least_of_largest = 20;  // a wound has at least 1/20 of the largest one's area, see components()
 
-/// 0..1: whether the colour is skin's in some light: hue from rose to yellow, not grey.
+/// 0..1: whether skin can have the colour in some light: hue from rose to yellow, not grey.
 float skin_likeness(const cv::Vec3f& lab)
 {
     const float chroma = std::hypot(lab[1], lab[2]);
@@ -37,14 +37,14 @@ float skin_likeness(const cv::Vec3f& lab)
 struct Picture
 {
     cv::Mat3f lab;   // slightly blurred
-    cv::Mat1b shown; // 255 where it shows anything
-    cv::Mat1f skin;  // 0..1
-    cv::Mat1b body;  // 255 on skin and what it encloses
-    double area = 0; // pixels shown
-    int detail = 0;  // pixels: narrower things do not part or join skin
+    cv::Mat1b shown; // 255 where there is a picture, see picture_area()
+    cv::Mat1f skin;  // 0..1, skin_likeness()
+    cv::Mat1b body;  // 255 on skin and regions that skin encloses
+    double area = 0; // number of pixels in `shown`
+    int detail = 0;  // pixels; narrower features are ignored
 };
 
-/// 255 on the regions of at least a fiftieth of the picture in which skin-like pixels lie close together.
+/// 255 on regions of dense skin-like pixels that cover at least 1/50 of the picture.
 cv::Mat1b body_of(const Picture& picture)
 {
     cv::Mat1b close = picture.skin > .3F;
@@ -68,7 +68,7 @@ Picture study(const cv::Mat3f& lab, const cv::Mat1b& shown)
     picture.detail = std::max(lab.cols, lab.rows) / 40 | 1;
     picture.skin = cv::Mat1f(lab.size());
     std::transform(picture.lab.begin(), picture.lab.end(), picture.skin.begin(), skin_likeness);
-    if (cv::mean(picture.skin, shown)[0] < .25) // light so coloured, or skin so pale, that hue says nothing
+    if (cv::mean(picture.skin, shown)[0] < .25) // coloured light or pale skin: hue gives no information
         picture.skin.setTo(1);
     picture.body = body_of(picture);
     return picture;
@@ -83,7 +83,7 @@ std::array<cv::Mat1f, 4> maps_of(const cv::Mat3f& lab)
     return {redness, -lightness, redness - .5F * lightness, -redness - .5F * lightness};
 }
 
-/// Fine texture taken out, sharp borders kept.
+/// Removes fine texture and keeps sharp borders.
 cv::Mat3f coarse(const cv::Mat3f& lab, int size)
 {
     std::array<cv::Mat, 3> channels;
@@ -99,9 +99,9 @@ cv::Mat3f coarse(const cv::Mat3f& lab, int size)
     return result;
 }
 
-/// Contrast of a border, averaged along it, times the cube of the closed share; 0 where the picture's edge
-/// lies so near that it may cut too much of it. Beyond the border must lie skin; where the body ends (a wound
-/// at a limb's edge) it is neither closed nor open.
+/// Mean contrast of a border times the cube of its closed share; 0 if the picture's edge is near more than
+/// most_cut of it. Outside the border must be skin; points where the body ends (a wound at a limb's edge) are
+/// neither closed nor open.
 double border_score(const Picture& picture, const Outline& outline, double area)
 {
     const double reach = std::max(2., .09 * std::sqrt(area));
@@ -145,7 +145,7 @@ struct Scored
     double score = 0;
 };
 
-/// The contrast of its border, the larger and the more compact the better.
+/// Score of a region: border_score(), higher for a larger and more compact region.
 double score_of(const Picture& picture, const Outline& outline)
 {
     const double area = cv::contourArea(outline);
@@ -157,7 +157,7 @@ double score_of(const Picture& picture, const Outline& outline)
     return border_score(picture, outline, area) * solidity * solidity * std::cbrt(area / picture.area);
 }
 
-/// Every region on the body in which `map` lies above one of many levels.
+/// Scores every region on the body in which `map` is above one of level_count levels.
 void score_levels(const Picture& picture, const cv::Mat1f& map, int brush_size, std::vector<Scored>& scored)
 {
     if (cv::countNonZero(picture.body) == 0)
@@ -184,8 +184,8 @@ cv::Mat1b filled(const Outline& outline, cv::Size size)
     return region;
 }
 
-/// What most regions nearly as good as `best`, and much the same, hold to be wound: steadier than the best
-/// alone, where a diffuse rim makes several borders about as sharp. `scored`: the best first.
+/// Majority vote, weighted by score, of the regions that overlap `best` and score nearly as much: more stable
+/// than `best` alone when a diffuse rim has several equally sharp borders. `scored`: the best first.
 cv::Mat1b agreed(const std::vector<Scored>& scored, const Scored& best, cv::Size size)
 {
     const cv::Mat1b region = filled(best.outline, size);

@@ -56,7 +56,7 @@ Noise::Noise(std::uint32_t seed) : table_(std::size_t(size) * size)
 Cell cell_at(std::uint32_t seed, cv::Point2f p)
 {
     const int cx = floor_to_int(p.x), cy = floor_to_int(p.y);
-    float first = 8, second = 8; // squared; any point of the 3 x 3 cells is nearer
+    float first = 8, second = 8; // squared distances; upper bounds for the points of the 3 x 3 cells
     std::uint32_t id = 0;
     for (int y = cy - 1; y <= cy + 1; ++y)
         for (int x = cx - 1; x <= cx + 1; ++x) {

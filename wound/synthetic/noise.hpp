@@ -1,5 +1,5 @@
-// Seeded noise for generated tissue. The same seed gives the same values on every machine: integers come from
-// a hash, and no library generator is used.
+// Seeded noise for generated tissue. The same seed gives the same values on every machine, because a hash
+// replaces the standard library's generators.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace wound {
 
-/// Well-mixed 32 bits of (seed, x, y).
+/// 32-bit hash of (seed, x, y).
 std::uint32_t hash(std::uint32_t seed, int x, int y);
 
 /// hash() as a fraction in [0,1).
@@ -18,21 +18,20 @@ inline float hash01(std::uint32_t seed, int x, int y)
     return float(hash(seed, x, y) >> 8) * 0x1p-24f;
 }
 
-/// Like std::floor, which is a call where the compiler may not assume SSE4.1.
+/// Like std::floor, which is a function call when the compiler may not assume SSE4.1.
 inline int floor_to_int(float x)
 {
     const int truncated = int(x);
     return truncated - (x < float(truncated));
 }
 
-/// One octave of gradient noise (Perlin 2002) kept as a periodic table, so that a look-up costs one bilinear
-/// fetch.
+/// One octave of gradient noise (Perlin 2002), stored in a periodic table that is sampled bilinearly.
 class Noise
 {
   public:
     explicit Noise(std::uint32_t seed);
 
-    /// About -1..1, features one unit wide, period 32 units in x and y.
+    /// About -1..1; features are one unit wide, the period is 32 units in x and y.
     float at(cv::Point2f p) const
     {
         const float x = p.x * texels_per_cell, y = p.y * texels_per_cell;
@@ -46,8 +45,7 @@ class Noise
         return top + v * (bottom - top);
     }
 
-    /// Sum of `octaves` octaves, each half as wide and `gain` times as strong as the one before; divided by
-    /// the sum of weights.
+    /// Weighted mean of `octaves` octaves, each half as wide and `gain` times as strong as the previous one.
     float sum(cv::Point2f p, int octaves, float gain = .5f) const
     {
         float total = 0, weight = 1, weights = 0;
@@ -55,7 +53,7 @@ class Noise
             total += weight * at(p);
             weights += weight;
             weight *= gain;
-            // Turning and shifting each octave keeps the lattices from lining up.
+            // Rotating and shifting each octave keeps the lattices from aligning.
             p = {1.6f * p.x - 1.2f * p.y + 17.3f, 1.2f * p.x + 1.6f * p.y + 5.7f};
         }
         return total / weights;
@@ -66,8 +64,8 @@ class Noise
     std::vector<float> table_; // size x size
 };
 
-/// Worley 1996: distances to the nearest and second nearest of points scattered one per unit cell, and a
-/// number that is the nearest point's own.
+/// Worley 1996: distances to the nearest and second nearest of points scattered one per unit cell, and the
+/// nearest point's hash.
 struct Cell
 {
     float nearest, second;

@@ -18,7 +18,7 @@ namespace {
 
 using cv::Vec3f;
 
-const Vec3f to_light{-.45f, -.55f, .70f}; // unit to .01; the camera looks along -z, y points down
+const Vec3f to_light{-.45f, -.55f, .70f}; // length 1 within .01; the camera looks along -z, y points down
 
 struct Surface
 {
@@ -46,7 +46,7 @@ cv::Mat_<SlowFields> slow_grid(TissuePainter& painter, const cv::Mat1f& distance
     return grid;
 }
 
-/// At the outline, whether a wall going down inwards faces the light: -1..1.
+/// Place::facing_light.
 float facing_light(const cv::Mat1f& distance, int x, int y)
 {
     const int left = std::max(x - 1, 0), right = std::min(x + 1, distance.cols - 1);
@@ -84,14 +84,14 @@ Surface paint(const SyntheticWound& wound, const Noise& noise, const cv::Mat1f& 
     return surface;
 }
 
-/// x to the 40th.
+/// x^40.
 float lobe(float x)
 {
     const float x2 = x * x, x4 = x2 * x2, x8 = x4 * x4, x16 = x8 * x8;
     return x16 * x16 * x8;
 }
 
-/// Lights the relief gently, as a ring flash nearly flattens it: the renderer lights it again.
+/// Shades the relief weakly, as with a ring flash, because the renderer shades it again.
 void light(Surface& surface)
 {
     const int n = surface.height_mm.rows;
@@ -110,8 +110,7 @@ void light(Surface& surface)
                 const float hollow = around(y, x) - surface.height_mm(y, x);
                 const float shade = 1 + .22f * (std::max(cosine, 0.f) / to_light[2] - 1) -
                                     std::clamp(.22f * hollow, -.08f, .2f);
-                // Phong's lobe about the viewer's axis between light and eye: wet knobs catch a little of the
-                // flash.
+                // Blinn-Phong lobe around the half vector of light and eye: weak highlights on wet knobs.
                 const float half =
                     (to_light[2] + 1 - slope_x * to_light[0] - slope_y * to_light[1]) * scale / 1.844f;
                 const float wet = surface.wetness(y, x);
@@ -121,7 +120,7 @@ void light(Surface& surface)
     });
 }
 
-/// The camera: a lens that is not quite sharp, eight bits, a little sensor noise.
+/// Simulates the camera: slight blur, 8 bits, a little sensor noise.
 cv::Mat3b develop(cv::Mat3f reflectance, std::uint32_t seed)
 {
     cv::GaussianBlur(reflectance, reflectance, {3, 3}, .55);

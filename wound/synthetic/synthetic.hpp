@@ -1,7 +1,7 @@
-// A wound made by our own code, for when no photograph is given: a picture such as a camera would take of a
-// fresh facial wound and the skin around it, and the mask of its open bed.
+// Generates a wound for use without a photograph: a picture, as a camera would take it, of a fresh facial
+// wound and the skin around it, and the mask of its open bed.
 //
-// Lengths are millimetres on the skin; the picture spans `synthetic_width_mm` of it.
+// Lengths are in mm on the skin; the picture is `synthetic_width_mm` wide.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -30,13 +30,13 @@ struct SyntheticWound
     std::uint32_t seed = 1;
     float clot = .2f;              // fraction of the open bed, 0..1
     float fibrin = .22f;           // fraction of the open bed, 0..1
-    cv::Vec3b skin{212, 164, 140}; // sRGB, the healthy skin's mean
+    cv::Vec3b skin{212, 164, 140}; // mean sRGB colour of the healthy skin
     int size = 512;                // px, width and height, 64 or more
 };
 
 inline constexpr double synthetic_width_mm = 50;
 
-/// The same parameters give the same picture, bit by bit.
+/// The same parameters give the same picture, bit for bit.
 Photograph synthesize(const SyntheticWound& wound);
 
 } // namespace wound

@@ -18,7 +18,8 @@ float ellipse(Point2f p, float a, float b)
     return slope > 0 ? (1 - k) * k / slope : std::min(a, b);
 }
 
-/// A limb of skin torn open from `from` to `to`, its half-width shrinking from `wide` to `narrow`, mm.
+/// Distance to a tear from `from` to `to` whose half-width falls from `wide` to `narrow`, mm, positive
+/// inside.
 float tear(Point2f p, Point2f from, Point2f to, float wide, float narrow)
 {
     const Point2f axis = to - from, away = p - from;
@@ -40,13 +41,13 @@ Point2f turned(Point2f p, float angle)
     return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
 
-/// How far the border strays from a smooth line: a cut has straighter lips than a graze.
-float cleanness(const SyntheticWound& wound)
+/// Factor on the border's deviation from a smooth line: a cut has straighter lips than a graze.
+float raggedness(const SyntheticWound& wound)
 {
     return wound.shape == WoundShape::Laceration ? .45f : 1;
 }
 
-/// The smooth idea of the wound before its border is torn, mm, positive inside.
+/// Signed distance to the smooth shape, before its border is bent and torn; mm, positive inside.
 float body(const SyntheticWound& wound, Point2f p)
 {
     const auto vary = [&](int index, float low, float high) {
@@ -85,10 +86,10 @@ float bent_body(const SyntheticWound& wound, const Noise& noise, Point2f p)
 {
     const Point2f large{noise.at(p * .11f + Point2f{3, 1}), noise.at(p * .11f + Point2f{9, 7})};
     const Point2f middle{noise.at(p * .34f + Point2f{21, 2}), noise.at(p * .34f + Point2f{5, 13})};
-    return body(wound, p + cleanness(wound) * (1.9f * large + .75f * middle));
+    return body(wound, p + raggedness(wound) * (1.9f * large + .75f * middle));
 }
 
-/// What tears at small scale add to the distance, mm; torn and smooth stretches alternate along the border.
+/// Small-scale tears, added to the distance, mm; torn and smooth stretches alternate along the border.
 float tears(const Noise& noise, Point2f p)
 {
     const float ragged = std::clamp(.55f + 1.1f * noise.at(p * .13f + Point2f{11, 19}), .1f, 1.f);
@@ -97,7 +98,7 @@ float tears(const Noise& noise, Point2f p)
     return ragged * (1.1f * noise.sum(q * .6f, 4, .6f) - 2.5f * std::max(notch - .8f, 0.f));
 }
 
-/// The bent body at every `step`th pixel, with a row and column to spare.
+/// bent_body() at every `step`th pixel, with one more row and column than needed to interpolate.
 constexpr int step = 4;
 cv::Mat1f coarse_body(const SyntheticWound& wound, const Noise& noise)
 {
@@ -132,7 +133,7 @@ cv::Mat1f outline_distance(const SyntheticWound& wound, const Noise& noise)
     const int n = wound.size;
     const cv::Mat1f coarse = coarse_body(wound, noise);
     cv::Mat1b inside(n, n, uchar(0));
-    const int margin = n / 12; // no shape reaches farther out
+    const int margin = n / 12; // no shape reaches into this margin
     cv::parallel_for_({margin, n - margin}, [&](const cv::Range& rows) {
         for (int y = rows.start; y < rows.end; ++y)
             for (int x = margin; x < n - margin; ++x) {
@@ -140,8 +141,8 @@ cv::Mat1f outline_distance(const SyntheticWound& wound, const Noise& noise)
                 const float u = float(x % step) / step, v = float(y % step) / step;
                 float f = std::lerp(std::lerp(coarse(j, i), coarse(j, i + 1), u),
                                     std::lerp(coarse(j + 1, i), coarse(j + 1, i + 1), u), v);
-                if (std::abs(f) < 3) // tears cannot reach the border from farther away
-                    f += cleanness(wound) * tears(noise, synthetic_position_mm(float(x), float(y), n));
+                if (std::abs(f) < 3) // farther away, tears cannot change the sign
+                    f += raggedness(wound) * tears(noise, synthetic_position_mm(float(x), float(y), n));
                 inside(y, x) = f > 0 ? 255 : 0;
             }
     });

@@ -1,11 +1,11 @@
-// Where the generated wound's open bed is: a ragged outline and the distance to it.
+// The outline of the generated wound's open bed: ragged, given by the signed distance to it.
 #pragma once
 #include "wound/synthetic/noise.hpp"
 #include "wound/synthetic/synthetic.hpp"
 
 namespace wound {
 
-/// Where pixel (x, y) of a picture `size` pixels wide lies, mm from the picture's middle.
+/// Position of pixel (x, y) in a picture `size` pixels wide, in mm from the picture's middle.
 inline cv::Point2f synthetic_position_mm(float x, float y, int size)
 {
     const float mm_per_px = float(synthetic_width_mm) / float(size);

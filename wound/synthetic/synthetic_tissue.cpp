@@ -12,11 +12,11 @@ namespace {
 using cv::Point2f;
 using cv::Vec3f;
 
-// Absorbance of one unit of blood per channel: haemoglobin takes green and blue, and almost no red. Without
-// oxygen, and dried to methaemoglobin, it takes more red as well. Shapes after Prahl's haemoglobin tables
-// averaged over the sRGB primaries.
+// Absorbance of one unit of blood per channel: haemoglobin absorbs green and blue and almost no red; without
+// oxygen, or dried to methaemoglobin, it absorbs more red. Shapes after Prahl's haemoglobin tables averaged
+// over the sRGB primaries.
 const Vec3f oxygenated{.16f, 1.f, .90f}, deoxygenated{.38f, 1.f, .82f}, dried{.80f, 1.05f, .95f};
-constexpr float reach_mm = 12; // injury shows no farther from the open bed
+constexpr float reach_mm = 12; // the injury is visible up to this distance from the open bed
 const Vec3f pale_dermis{.74f, .53f, .43f};
 
 Vec3f mix(const Vec3f& a, const Vec3f& b, float t)
@@ -24,7 +24,7 @@ Vec3f mix(const Vec3f& a, const Vec3f& b, float t)
     return a + (b - a) * t;
 }
 
-/// exp(-x), cheaply: within 1 % for x in -1..2, and a little more light beyond, where little is left.
+/// Fast exp(-x): within 1 % for x in -1..2, slightly too large beyond, where the value is small.
 float transmitted(float x)
 {
     x *= .25f;
@@ -32,7 +32,7 @@ float transmitted(float x)
     return 1 / (squared * squared);
 }
 
-/// Light that has gone through `amount` of blood over `base`.
+/// Reflectance of `base` under `amount` units of blood.
 Vec3f through(const Vec3f& base, const Vec3f& blood, float amount)
 {
     return {base[0] * transmitted(amount * blood[0]), base[1] * transmitted(amount * blood[1]),
@@ -44,7 +44,7 @@ float fraction(std::uint32_t bits)
     return float(bits >> 8) * 0x1p-24f;
 }
 
-/// The value that `share` of the values lie above.
+/// The value that is exceeded by `share` of the values.
 float upper_quantile(std::vector<float> values, float share)
 {
     if (values.empty() || share <= 0)
@@ -63,7 +63,7 @@ TissuePainter::TissuePainter(const SyntheticWound& wound, const Noise& noise) : 
         skin_[channel] = base::srgb_to_linear(float(wound.skin[channel]) / 255);
     for (int channel = 0; channel < int(turns_.size()); ++channel)
         turns_[channel] = {std::cos(2.4f * float(channel)),
-                           std::sin(2.4f * float(channel))}; // the golden angle
+                           std::sin(2.4f * float(channel))}; // the golden angle, radians
     const float angle = float(2 * CV_PI) * hash01(wound.seed, 1, 2);
     scrape_direction_ = {std::cos(angle), std::sin(angle)};
     scrape_centre_ = 10.f * scrape_direction_;
@@ -139,7 +139,7 @@ Tissue TissuePainter::at(const Place& place) const
     return tissue;
 }
 
-/// Healthy skin: blotches of blood and a grain of pores.
+/// Healthy skin: blotches of blood, and pores.
 Tissue TissuePainter::skin(const Place& place) const
 {
     const float grain = noise(place.p, 1.0f, 2, 2);
@@ -150,7 +150,7 @@ Tissue TissuePainter::skin(const Place& place) const
     return tissue;
 }
 
-/// The swollen, reddened halo: uneven in width and mottled, since vessels are.
+/// The swollen, reddened halo; its width is uneven and it is mottled, as vessels are.
 void TissuePainter::inflame(Tissue& tissue, const Place& place) const
 {
     const float out = -place.inside_mm;
@@ -159,7 +159,7 @@ void TissuePainter::inflame(Tissue& tissue, const Place& place) const
     const float near = std::exp(-std::pow(out / width, 1.25f));
     const float far =
         std::exp(-out / 5.5f) * std::max(1 + 1.3f * spread, .2f) * (1 - base::smoothstep(7, reach_mm, out));
-    const float tight = (out - 1.1f - .8f * mottle) / .55f; // where swelling squeezes the blood out
+    const float tight = (out - 1.1f - .8f * mottle) / .55f; // near 0, swelling squeezes the blood out
     const float blanched = 1 - .45f * std::exp(-tight * tight);
     const float amount =
         near * std::max(.72f + .55f * mottle, .1f) * blanched + .26f * far * std::max(1 + .8f * mottle, 0.f);
@@ -170,8 +170,7 @@ void TissuePainter::inflame(Tissue& tissue, const Place& place) const
     tissue.wetness = .25f * near;
 }
 
-/// Skin that lost its surface in streaks where something rough passed; bleeding points and thin crusts in
-/// them.
+/// Streaks of scraped skin with bleeding points and thin crusts.
 void TissuePainter::scrape(Tissue& tissue, const Place& place) const
 {
     const float region = base::smoothstep(.05f, .7f, place.slow[Scraped]);
@@ -209,14 +208,14 @@ void TissuePainter::smear_blood(Tissue& tissue, const Place& place) const
     }
     const float splashed = .6f * place.slow[FilmPatches] - .035f * out;
     if (splashed < -.1f)
-        return; // too far for the noise below to make up for it
+        return; // the noise below cannot reach the threshold
     const float speck = base::smoothstep(.54f, .66f, noise(p, .8f, 33, 3) + splashed);
     tissue.reflectance = mix(tissue.reflectance, Vec3f(.15f, .026f, .017f), .75f * speck);
     tissue.height_mm += .2f * speck;
 }
 
-/// The lip of the wound: dried blood along stretches of it, flakes of dead epidermis, the cut edge of the
-/// dermis, the dark line under it.
+/// The wound's lip: stretches of dried blood, flakes of dead epidermis, the cut edge of the dermis, and the
+/// dark line under it.
 void TissuePainter::fray_border(Tissue& tissue, const Place& place) const
 {
     const Point2f p = place.p;
@@ -224,7 +223,7 @@ void TissuePainter::fray_border(Tissue& tissue, const Place& place) const
     if (std::abs(d) > 3)
         return;
     const float along = place.slow[Stretch], fine = noise(p, .9f, 41, 3);
-    // The edge itself is raw: a band of dermis, bared and bleeding, from the lip down the wall.
+    // The edge is a band of exposed, bleeding dermis from the lip down the wall.
     const float reach = .75f + 1.1f * place.slow[Uneven] + .5f * fine;
     const float bared = base::smoothstep(std::max(reach, .1f), 0, std::abs(d)) *
                         base::smoothstep(-.35f, .25f, place.slow[Knobby] + .5f * fine);
@@ -258,8 +257,8 @@ void TissuePainter::fray_border(Tissue& tissue, const Place& place) const
     tissue.wetness *= 1 - .8f * crust;
 }
 
-/// Granulating dermis: knobs of young vessels in pale tissue, darker in the clefts between; livid where
-/// oxygen is short.
+/// Granulating dermis: knobs of young vessels in pale tissue, darker clefts between them; livid where oxygen
+/// is low.
 Tissue TissuePainter::bed(const Place& place) const
 {
     const Point2f p = place.p + .7f * Point2f(place.slow[BendX], place.slow[BendY]);
@@ -290,8 +289,8 @@ Tissue TissuePainter::bed(const Place& place) const
     return tissue;
 }
 
-/// Yellow slough: a translucent film that fills the clefts first while the knobs stick out; few strands at
-/// its margin.
+/// Yellow slough: a translucent film that fills the clefts before it covers the knobs; a few strands at its
+/// margin.
 void TissuePainter::lay_fibrin(Tissue& tissue, const Place& place, float bump) const
 {
     const float over = place.slow[Fibrin] - fibrin_threshold_;
@@ -312,8 +311,8 @@ void TissuePainter::lay_fibrin(Tissue& tissue, const Place& place, float bump) c
     tissue.height_mm += cover * (.18f - .20f * bump + .12f * thickness);
 }
 
-/// Clotted blood: a translucent dark red film around, brown-black and lumpy where thick, cracked here and
-/// there.
+/// Clotted blood: brown-black, lumpy and partly cracked where thick, with a translucent dark red film around
+/// it.
 void TissuePainter::lay_clot(Tissue& tissue, const Place& place) const
 {
     const Point2f p = place.p;

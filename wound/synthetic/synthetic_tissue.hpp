@@ -1,7 +1,6 @@
-// What the generated wound is made of at each point: reflectance, relief and wetness of skin, open bed,
-// fibrin, clot, crust. Colours are linear Rec. 709 reflectances; red comes from layers of blood over pale
-// tissue (Beer-Lambert), so that a thin film, an inflamed halo, granulation and a clot are one family of
-// colours, as in the flesh.
+// The generated wound's tissue at each point: reflectance, relief and wetness of skin, open bed, fibrin,
+// clot, crust. Colours are linear Rec. 709 reflectances; red comes from layers of blood over pale tissue
+// (Beer-Lambert), so the colours of film, inflamed halo, granulation and clot are related, as in real tissue.
 #pragma once
 #include "wound/synthetic/noise.hpp"
 #include "wound/synthetic/synthetic.hpp"
@@ -12,12 +11,11 @@ namespace wound {
 struct Tissue
 {
     cv::Vec3f reflectance; // linear
-    float height_mm = 0;   // over the healthy skin around
+    float height_mm = 0;   // above the surrounding healthy skin
     float wetness = 0;     // 0 dry .. 1 a film of serum
 };
 
-/// Noise fields whose features span millimetres: kept on a coarse grid, since they cost as much as fine ones
-/// to evaluate.
+/// Noise fields whose features span millimetres; computed on a coarse grid to save time.
 enum SlowField
 {
     Blotches,
@@ -41,13 +39,13 @@ enum SlowField
 };
 using SlowFields = cv::Vec<float, SlowFieldCount>;
 
-/// Where a point lies relative to the outline.
+/// A point and its position relative to the outline.
 struct Place
 {
     cv::Point2f p;      // mm from the picture's middle
     float inside_mm;    // signed distance to the outline, positive in the open bed
-    float facing_light; // -1..1: at the outline, whether the wall descending from it faces the light (1) or
-                        // hides from it
+    float facing_light; // whether the wall that descends from the outline faces the light (1) or faces away
+                        // from it (-1)
     SlowFields slow;
 };
 
@@ -59,8 +57,8 @@ class TissuePainter
     /// The slow fields at a point that is `inside_mm` within the outline.
     SlowFields slow_fields(cv::Point2f p, float inside_mm) const;
 
-    /// Takes from evenly spread places in the open bed the thresholds that give clot and fibrin their shares
-    /// of it.
+    /// Sets the thresholds that give clot and fibrin their shares of the open bed. `bed`: the slow fields at
+    /// evenly spread points of the bed.
     void set_shares(const std::vector<SlowFields>& bed);
 
     Tissue at(const Place& place) const;
@@ -82,7 +80,7 @@ class TissuePainter
     cv::Vec3f skin_; // linear
     float fibrin_threshold_ = 0, clot_threshold_ = 0;
     cv::Point2f scrape_direction_, scrape_centre_;
-    std::array<cv::Point2f, 96> turns_; // cosine and sine by which each channel's lattice is turned
+    std::array<cv::Point2f, 96> turns_; // cosine and sine of the rotation of each channel's lattice
 };
 
 } // namespace wound

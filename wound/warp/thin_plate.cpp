@@ -9,10 +9,9 @@ namespace wound {
 
 namespace {
 
-constexpr int anchors_per_side = 16; // between them the frame strays by less than half a texel of 512
+constexpr int anchors_per_side = 16; // the frame between two anchors moves by less than half a texel of 512
 
-/// r^2 log r^2, twice the thin plate's kernel, from the squared distance; 0 at 0 because the logarithm is of
-/// a positive number.
+/// r^2 log r^2, twice the thin-plate kernel, from the squared distance; 1e-300 makes it 0 at 0.
 double kernel(double squared)
 {
     return squared * std::log(squared + 1e-300);
@@ -32,8 +31,7 @@ std::vector<cv::Point2d> frame_anchors()
 
 cv::Point2d ThinPlate::apply(cv::Point2d p) const
 {
-    // Interleaved x, y: even and odd columns of one pair of maps, so that the kernel is evaluated in vector
-    // registers.
+    // x and y are interleaved: map the points as two rows, so that Eigen vectorises the kernel.
     using Points = Eigen::Map<const Eigen::Array<double, 2, Eigen::Dynamic>>;
     const auto count = static_cast<Eigen::Index>(centers.size());
     const Points c(&centers.data()->x, 2, count);

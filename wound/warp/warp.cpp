@@ -12,8 +12,8 @@ namespace wound {
 namespace {
 
 constexpr int hull_angles = 256;
-constexpr int hull_reach = 32;       // angles over which the hull is widened and smoothed
-constexpr double hull_margin = 1.05; // so that a blurred border is scaled as a whole
+constexpr int hull_reach = 32;       // half-width, in angles, of the hull's widening and smoothing
+constexpr double hull_margin = 1.05; // keeps a blurred border inside the hull
 // Control points nearer than half a texel of 512 count as one: the system would be near-singular.
 constexpr double coincident = .002;
 
@@ -34,8 +34,8 @@ double distance_to_frame(cv::Point2d centroid, cv::Point2d direction)
     return std::min(x, y);
 }
 
-/// A smooth star-shaped hull: at every angle at least as far out as the border, and nowhere far nearer than
-/// its farthest point, so that a direction without border (a crescent's hollow) is contracted too.
+/// Radii of a smooth star-shaped hull: at every angle at least the border's radius and 70 % of its largest
+/// radius, so that a direction without border (a crescent's hollow) is contracted too.
 std::vector<double> star_hull(const std::vector<cv::Point2d>& border, cv::Point2d centroid)
 {
     constexpr double full_turn = 2 * std::numbers::pi;
@@ -53,7 +53,7 @@ std::vector<double> star_hull(const std::vector<cv::Point2d>& border, cv::Point2
         }
     }
     const double least = .7 * *std::max_element(farthest.begin(), farthest.end());
-    // Widening by the reach and then averaging over the same reach keeps the hull outside the border.
+    // A maximum and then a mean over the same window keep the hull outside the border.
     std::vector<double> hull(hull_angles, 0.);
     const auto wrapped = [](int i) { return (i + hull_angles) % hull_angles; };
     std::vector<double> widened(hull_angles);
@@ -68,8 +68,8 @@ std::vector<double> star_hull(const std::vector<cv::Point2d>& border, cv::Point2
     return hull;
 }
 
-/// Within the contracted hull a plain scaling; from there to the frame radii are spread evenly. Its
-/// determinant is (radius / today's radius) x (slope along the ray) > 0 whatever the hull, so it cannot fold.
+/// Inside the contracted hull a uniform scaling; from there to the frame the radius is mapped linearly. The
+/// determinant is (radius / today's radius) x (slope along the ray) > 0 for any hull, so the map cannot fold.
 cv::Point2d apply_radial(const Warp& warp, cv::Point2d p)
 {
     const cv::Point2d offset = p - warp.centroid;
@@ -81,7 +81,7 @@ cv::Point2d apply_radial(const Warp& warp, cv::Point2d p)
     const int index = static_cast<int>(std::floor(turn));
     const double hull = std::lerp(warp.radii[index % count], warp.radii[(index + 1) % count], turn - index);
     const double frame = distance_to_frame(warp.centroid, offset / radius);
-    // A hull that today reaches the frame would leave no skin to spread.
+    // If today's hull reached the frame, there would be no skin between them to stretch.
     const double day0 = std::min(hull, .95 * frame / std::max(warp.scale, 1.));
     const double today = warp.scale * day0;
     if (radius >= frame)
@@ -91,7 +91,7 @@ cv::Point2d apply_radial(const Warp& warp, cv::Point2d p)
     return warp.centroid + offset * (moved / radius);
 }
 
-/// Node positions along one axis: sinh spreads them, finest around the centroid, from frame to frame.
+/// Node positions along one axis from frame to frame, spaced by sinh, densest at the centroid.
 double node_position(int index, int half, double centroid, double epsilon)
 {
     const double t = static_cast<double>(index - half) / half;
@@ -101,7 +101,7 @@ double node_position(int index, int half, double centroid, double epsilon)
     return centroid + epsilon * std::sinh(t * std::asinh(reach / epsilon));
 }
 
-/// The cell of nodes that holds `coordinate`, in closed form as the shader finds it.
+/// Index of the cell of nodes that contains `coordinate`, in closed form as in the shader.
 int node_cell(double coordinate, int half, double centroid, double epsilon)
 {
     const double offset = coordinate - centroid;
@@ -111,13 +111,14 @@ int node_cell(double coordinate, int half, double centroid, double epsilon)
     return std::clamp(static_cast<int>(std::floor((t + 1) * half)), 0, 2 * half - 1);
 }
 
-/// Nodes on either side of the centroid: a strongly contracted wound bends the map more.
+/// Number of nodes on each side of the centroid: a strongly contracted wound bends the map more.
 int half_nodes(double scale)
 {
     return scale >= .6 ? 40 : scale >= .15 ? 80 : 112;
 }
 
-/// The contracted wound, about scale x half a patch wide, gets as many nodes as its surroundings.
+/// The sinh spacing's width, chosen so that the contracted wound, about scale x half a patch wide, gets as
+/// many nodes as its surroundings.
 double grid_epsilon(double scale)
 {
     return .5 * scale;
@@ -202,7 +203,7 @@ ContractionFlow prepare_flow(const std::vector<cv::Point2d>& border,
                              const std::vector<cv::Point2d>& control_points, cv::Point2d centroid)
 {
     ContractionFlow flow{centroid, {}, star_hull(border, centroid), {}};
-    // The centroid is a control point too, which moves by D (1 - sqrt r) = 0.
+    // The centroid is also a control point; it moves by D (1 - sqrt r) = 0.
     std::vector<cv::Point2d> candidates = control_points;
     candidates.push_back(centroid);
     for (cv::Point2d candidate : candidates) {
@@ -330,8 +331,7 @@ FoldCheck check_folds(const Warp& warp, int size)
 
 namespace {
 
-/// Where the forward map, the inverse of `warp`, takes a day-0 point: by Newton's method from the scaled
-/// point.
+/// The forward map, inverse of `warp`, of a day-0 point, by Newton's method that starts at the scaled point.
 cv::Point2d today_of(const Warp& warp, cv::Point2d day0)
 {
     cv::Point2d p = warp.centroid + (day0 - warp.centroid) * warp.scale;
