@@ -22,17 +22,17 @@ class CommandBuffer
                 std::span<const VkSemaphoreSubmitInfo> signals = {});
     /// Until the device is done with what was submitted; false: nothing was, or it has been waited for.
     bool wait();
-    VkCommandBuffer handle() const { return commands; }
+    VkCommandBuffer handle() const { return commands_; }
 
   private:
     void destroy();
 
-    VkDevice device;
-    VkQueue queue;
-    VkCommandPool pool = VK_NULL_HANDLE;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    VkFence fence = VK_NULL_HANDLE;
-    bool in_flight = false;
+    VkDevice device_;
+    VkQueue queue_;
+    VkCommandPool pool_ = VK_NULL_HANDLE;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    VkFence fence_ = VK_NULL_HANDLE;
+    bool in_flight_ = false;
 };
 
 } // namespace gpu

@@ -124,12 +124,12 @@ struct Device::Messages
     }
 };
 
-Device::Device(const DeviceOptions& options) : messages(std::make_unique<Messages>())
+Device::Device(const DeviceOptions& options) : messages_(std::make_unique<Messages>())
 {
     try {
         create_instance(options);
         const std::string wanted = options.device.empty() ? environment("CICATRIX_DEVICE") : options.device;
-        physical = choose_device(enumerate_devices(vk_instance, options.wishes), wanted);
+        physical_ = choose_device(enumerate_devices(instance_, options.wishes), wanted);
         create_device(options);
     } catch (...) {
         destroy();
@@ -144,14 +144,14 @@ Device::~Device()
 
 void Device::destroy()
 {
-    if (vk_device) {
-        vkDeviceWaitIdle(vk_device);
-        vkDestroyDevice(vk_device, nullptr);
+    if (device_) {
+        vkDeviceWaitIdle(device_);
+        vkDestroyDevice(device_, nullptr);
     }
-    if (messenger)
-        vkDestroyDebugUtilsMessengerEXT(vk_instance, messenger, nullptr);
-    if (vk_instance)
-        vkDestroyInstance(vk_instance, nullptr);
+    if (messenger_)
+        vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+    if (instance_)
+        vkDestroyInstance(instance_, nullptr);
 }
 
 void Device::create_instance(const DeviceOptions& options)
@@ -159,27 +159,27 @@ void Device::create_instance(const DeviceOptions& options)
     load_vulkan();
     const bool validation = options.validation || environment("CICATRIX_VALIDATION") == "1";
     if (!validation) {
-        vk_instance = make_instance(options.instance_extensions, nullptr, false);
+        instance_ = make_instance(options.instance_extensions, nullptr, false);
         return;
     }
     if (!has_layer(validation_layer) || !has_instance_extension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
         throw InputError("Vulkan validation", fmt::format("the layer {} is not installed", validation_layer),
                          "install it (Debian: vulkan-validationlayers) or do without validation");
-    VkDebugUtilsMessengerCreateInfoEXT listener = messages->create_info();
+    VkDebugUtilsMessengerCreateInfoEXT listener = messages_->create_info();
     const VkValidationFeatureEnableEXT synchronisation =
         VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     const VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
                                            .pNext = &listener, // hears what is said about the instance itself
                                            .enabledValidationFeatureCount = 1,
                                            .pEnabledValidationFeatures = &synchronisation};
-    vk_instance = make_instance(options.instance_extensions, &features, true);
-    check(vkCreateDebugUtilsMessengerEXT(vk_instance, &listener, nullptr, &messenger),
+    instance_ = make_instance(options.instance_extensions, &features, true);
+    check(vkCreateDebugUtilsMessengerEXT(instance_, &listener, nullptr, &messenger_),
           "listen to the validation layer");
 }
 
 void Device::create_device(const DeviceOptions& options)
 {
-    vkGetPhysicalDeviceMemoryProperties(physical.handle, &memory);
+    vkGetPhysicalDeviceMemoryProperties(physical_.handle, &memory_);
     VkPhysicalDeviceVulkan13Features v13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
                                          .synchronization2 = VK_TRUE,
                                          .dynamicRendering = VK_TRUE,
@@ -189,14 +189,14 @@ void Device::create_device(const DeviceOptions& options)
                                          .scalarBlockLayout = VK_TRUE};
     VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &v12};
     features.features.shaderStorageImageExtendedFormats = VK_TRUE;
-    features.features.pipelineStatisticsQuery = physical.info.statistics ? VK_TRUE : VK_FALSE;
+    features.features.pipelineStatisticsQuery = physical_.info.statistics ? VK_TRUE : VK_FALSE;
     std::vector<const char*> extensions = options.wishes.extensions;
-    if (physical.info.calibrated)
+    if (physical_.info.calibrated)
         extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
 
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue_info{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
-                                             .queueFamilyIndex = physical.queue_family,
+                                             .queueFamilyIndex = physical_.queue_family,
                                              .queueCount = 1,
                                              .pQueuePriorities = &priority};
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
@@ -205,8 +205,8 @@ void Device::create_device(const DeviceOptions& options)
                                   .pQueueCreateInfos = &queue_info,
                                   .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
                                   .ppEnabledExtensionNames = extensions.data()};
-    check(vkCreateDevice(physical.handle, &info, nullptr, &vk_device), "create a Vulkan device");
-    vkGetDeviceQueue(vk_device, physical.queue_family, 0, &vk_queue);
+    check(vkCreateDevice(physical_.handle, &info, nullptr, &device_), "create a Vulkan device");
+    vkGetDeviceQueue(device_, physical_.queue_family, 0, &queue_);
 }
 
 double Device::milliseconds(std::uint64_t from_tick, std::uint64_t to_tick) const
@@ -228,7 +228,7 @@ std::optional<Device::Calibration> Device::calibrate() const
           .timeDomain = VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT}}};
     std::array<std::uint64_t, 2> values{};
     std::uint64_t deviation_ns = 0;
-    check(vkGetCalibratedTimestampsEXT(vk_device, clocks.size(), clocks.data(), values.data(), &deviation_ns),
+    check(vkGetCalibratedTimestampsEXT(device_, clocks.size(), clocks.data(), values.data(), &deviation_ns),
           "read the device's clock");
     return Calibration{values[0], std::chrono::steady_clock::time_point(std::chrono::nanoseconds(values[1])),
                        static_cast<double>(deviation_ns) * 1e-6};
@@ -238,8 +238,8 @@ std::uint32_t Device::memory_type(std::uint32_t allowed_types,
                                   std::initializer_list<VkMemoryPropertyFlags> wishes) const
 {
     for (const VkMemoryPropertyFlags flags : wishes)
-        for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
-            if ((allowed_types >> i & 1u) && (memory.memoryTypes[i].propertyFlags & flags) == flags)
+        for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
+            if ((allowed_types >> i & 1u) && (memory_.memoryTypes[i].propertyFlags & flags) == flags)
                 return i;
     throw InputError(fmt::format("device '{}'", info().name), "it has no memory of the kind that is needed",
                      "choose another device with --device");
@@ -247,7 +247,7 @@ std::uint32_t Device::memory_type(std::uint32_t allowed_types,
 
 void Device::run_once(const std::function<void(VkCommandBuffer)>& record) const
 {
-    CommandBuffer commands(vk_device, vk_queue, physical.queue_family);
+    CommandBuffer commands(device_, queue_, physical_.queue_family);
     record(commands.begin());
     commands.submit();
     commands.wait();
@@ -261,19 +261,19 @@ void Device::name(VkObjectType type, std::uint64_t object, const std::string& na
                                              .objectType = type,
                                              .objectHandle = object,
                                              .pObjectName = name.c_str()};
-    check(vkSetDebugUtilsObjectNameEXT(vk_device, &info), "name an object");
+    check(vkSetDebugUtilsObjectNameEXT(device_, &info), "name an object");
 }
 
 std::vector<std::string> Device::validation_messages() const
 {
-    const std::lock_guard lock(messages->mutex);
-    return messages->list;
+    const std::lock_guard lock(messages_->mutex);
+    return messages_->list;
 }
 
 void Device::clear_validation_messages()
 {
-    const std::lock_guard lock(messages->mutex);
-    messages->list.clear();
+    const std::lock_guard lock(messages_->mutex);
+    messages_->list.clear();
 }
 
 std::string describe_devices()

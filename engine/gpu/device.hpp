@@ -33,14 +33,14 @@ class Device
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
-    const DeviceInfo& info() const { return physical.info; }
-    const VkPhysicalDeviceLimits& limits() const { return physical.properties.limits; }
-    VkInstance instance() const { return vk_instance; }
-    VkPhysicalDevice physical_device() const { return physical.handle; }
-    VkDevice handle() const { return vk_device; }
-    VkQueue queue() const { return vk_queue; }
-    std::uint32_t queue_family() const { return physical.queue_family; }
-    std::uint32_t timestamp_bits() const { return info().timestamps ? physical.timestamp_bits : 0; }
+    const DeviceInfo& info() const { return physical_.info; }
+    const VkPhysicalDeviceLimits& limits() const { return physical_.properties.limits; }
+    VkInstance instance() const { return instance_; }
+    VkPhysicalDevice physical_device() const { return physical_.handle; }
+    VkDevice handle() const { return device_; }
+    VkQueue queue() const { return queue_; }
+    std::uint32_t queue_family() const { return physical_.queue_family; }
+    std::uint32_t timestamp_bits() const { return info().timestamps ? physical_.timestamp_bits : 0; }
 
     /// From one of the device's ticks to a later one, right across a wrap, too.
     double milliseconds(std::uint64_t from_tick, std::uint64_t to_tick) const;
@@ -58,7 +58,7 @@ class Device
                               std::initializer_list<VkMemoryPropertyFlags> wishes) const;
     VkMemoryPropertyFlags memory_flags(std::uint32_t type) const
     {
-        return memory.memoryTypes[type].propertyFlags;
+        return memory_.memoryTypes[type].propertyFlags;
     }
 
     /// Records commands, submits them and waits. For uploads.
@@ -78,13 +78,13 @@ class Device
     void create_device(const DeviceOptions& options);
     void destroy();
 
-    std::unique_ptr<Messages> messages; // its address is known to the layers
-    VkInstance vk_instance = VK_NULL_HANDLE;
-    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
-    PhysicalDevice physical;
-    VkPhysicalDeviceMemoryProperties memory{};
-    VkDevice vk_device = VK_NULL_HANDLE;
-    VkQueue vk_queue = VK_NULL_HANDLE;
+    std::unique_ptr<Messages> messages_; // its address is known to the layers
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    PhysicalDevice physical_;
+    VkPhysicalDeviceMemoryProperties memory_{};
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
 };
 
 /// What `cicatrix info` prints: every device, what it offers and what it lacks.

@@ -54,23 +54,23 @@ std::uint64_t bytes_written(const graph::Graph& graph, const graph::PassPlan& pl
 class Label
 {
   public:
-    Label(VkCommandBuffer to, const std::string& name) : commands(to)
+    Label(VkCommandBuffer commands, const std::string& name) : commands_(commands)
     {
         const VkDebugUtilsLabelEXT info{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
                                         .pLabelName = name.c_str()};
         if (vkCmdBeginDebugUtilsLabelEXT)
-            vkCmdBeginDebugUtilsLabelEXT(commands, &info);
+            vkCmdBeginDebugUtilsLabelEXT(commands_, &info);
     }
     ~Label()
     {
         if (vkCmdEndDebugUtilsLabelEXT)
-            vkCmdEndDebugUtilsLabelEXT(commands);
+            vkCmdEndDebugUtilsLabelEXT(commands_);
     }
     Label(const Label&) = delete;
     Label& operator=(const Label&) = delete;
 
   private:
-    VkCommandBuffer commands;
+    VkCommandBuffer commands_;
 };
 
 } // namespace
@@ -118,11 +118,11 @@ struct Executor::Frame
     const Buffer* readback = nullptr;  // null when there are none
 };
 
-Executor::Executor(const Device& used, const graph::ShaderLibrary& shaders)
-    : device(used), library(shaders), pipelines(used, shaders)
+Executor::Executor(const Device& device, const graph::ShaderLibrary& library)
+    : device_(device), library_(library), pipelines_(device, library)
 {
-    for (auto& frame : frames)
-        frame = std::make_unique<Frame>(device);
+    for (auto& frame : frames_)
+        frame = std::make_unique<Frame>(device_);
 }
 
 Executor::~Executor() = default; // the frames, destroyed first, wait for what is in flight
@@ -136,36 +136,36 @@ FrameToken Executor::submit(const graph::Graph& graph)
 {
     const Clock::time_point start = Clock::now();
     std::vector<std::string> problems = graph::check_graph(graph);
-    const std::vector<std::string> unfit = graph::check_bindings(graph, library);
+    const std::vector<std::string> unfit = graph::check_bindings(graph, library_);
     problems.insert(problems.end(), unfit.begin(), unfit.end());
     graph::throw_if_any(problems);
 
-    Frame& frame = *frames[submitted % frames.size()];
+    Frame& frame = *frames_[submitted_ % frames_.size()];
     frame.slot.wait();
     frame.kept = graph.kept; // those of the frame that used the slot last can go
     frame.result = {};
-    frame.result.plan = graph::schedule(graph, memory);
+    frame.result.plan = graph::schedule(graph, memory_);
     frame.start = start;
     match_images(graph, frame.result.plan);
     const std::vector<BoundImage> bound = bind_images(graph);
     const auto passes = static_cast<std::uint32_t>(graph.passes.size());
     const Clock::time_point scheduled = Clock::now();
-    const VkCommandBuffer commands = frame.slot.begin(2 * passes + 2, measuring.count ? passes : 0);
+    const VkCommandBuffer commands = frame.slot.begin(2 * passes + 2, measuring_.count ? passes : 0);
     record_passes(graph, frame, commands, bound);
     frame.recorded = Clock::now();
-    frame.slot.submit(measuring.align);
+    frame.slot.submit(measuring_.align);
     frame.submitted = Clock::now();
     frame.result.host.schedule_ms = milliseconds(scheduled - start);
     frame.result.host.record_ms = milliseconds(frame.recorded - scheduled);
     frame.result.host.submit_ms = milliseconds(frame.submitted - frame.recorded);
-    memory = frame.result.plan.memory; // only now: whatever threw before has changed no image
-    frame.number = ++submitted;
+    memory_ = frame.result.plan.memory; // only now: whatever threw before has changed no image
+    frame.number = ++submitted_;
     return {frame.number};
 }
 
 FrameResult Executor::finish(FrameToken token)
 {
-    Frame& frame = *frames[(token.number - 1) % frames.size()];
+    Frame& frame = *frames_[(token.number - 1) % frames_.size()];
     if (token.number == 0 || frame.number != token.number)
         throw std::logic_error("Executor::finish: this frame's results are gone");
     frame.slot.wait();
@@ -191,7 +191,7 @@ FrameResult Executor::finish(FrameToken token)
 
 bool Executor::up_to_date(const graph::Graph& graph) const
 {
-    const graph::Plan plan = graph::schedule(graph, memory);
+    const graph::Plan plan = graph::schedule(graph, memory_);
     return std::ranges::none_of(
         plan.passes, [](const graph::PassPlan& pass) { return pass.state == graph::PassState::Run; });
 }
@@ -232,15 +232,15 @@ void Executor::read_times(const Frame& frame, Clock::time_point done, FrameResul
 
 VkImage Executor::presented(std::string_view image_name) const
 {
-    const auto image = images.find(image_name);
-    return image == images.end() ? VK_NULL_HANDLE : image->second.handle();
+    const auto image = images_.find(image_name);
+    return image == images_.end() ? VK_NULL_HANDLE : image->second.handle();
 }
 
 void Executor::forget()
 {
-    for (auto& [name, state] : memory.images)
+    for (auto& [name, state] : memory_.images)
         state.content_version = 0; // what the GPU may still be doing to it stays known
-    memory.passes.clear();
+    memory_.passes.clear();
 }
 
 /// Makes the images this frame touches, and lets go of those that are declared differently or no longer.
@@ -251,22 +251,22 @@ void Executor::match_images(const graph::Graph& graph, const graph::Plan& plan)
         return state != plan.memory.images.end() && state->second.desc == image.desc() &&
                state->second.usage == image.usage();
     };
-    for (auto image = images.begin(); image != images.end();) {
+    for (auto image = images_.begin(); image != images_.end();) {
         if (fits(image->first, image->second)) {
             ++image;
             continue;
         }
-        check(vkQueueWaitIdle(device.queue()),
+        check(vkQueueWaitIdle(device_.queue()),
               "finish the frames that use an image"); // rare: a change of size
-        memory.images.erase(image->first);
-        image = images.erase(image);
+        memory_.images.erase(image->first);
+        image = images_.erase(image);
     }
     for (std::size_t i = 0; i < graph.images.size(); ++i) {
         const std::string& name = graph.images[i].name;
-        if (graph.images[i].external || plan.images[i].first == ~0u || images.contains(name))
+        if (graph.images[i].external || plan.images[i].first == ~0u || images_.contains(name))
             continue;
         const graph::ImageState& state = plan.memory.images.at(name);
-        images.emplace(name, Image(device, state.desc, 1, state.usage, name));
+        images_.emplace(name, Image(device_, state.desc, 1, state.usage, name));
     }
 }
 
@@ -276,7 +276,7 @@ std::vector<BoundImage> Executor::bind_images(const graph::Graph& graph) const
     for (const graph::Graph::Image& image : graph.images) {
         if (image.external)
             bound.push_back({VK_NULL_HANDLE, image.external->view});
-        else if (const auto own = images.find(image.name); own != images.end())
+        else if (const auto own = images_.find(image.name); own != images_.end())
             bound.push_back({own->second.handle(), own->second.view()});
         else
             bound.push_back({});
@@ -287,7 +287,7 @@ std::vector<BoundImage> Executor::bind_images(const graph::Graph& graph) const
 void Executor::record_passes(const graph::Graph& graph, Frame& frame, VkCommandBuffer commands,
                              std::span<const BoundImage> bound)
 {
-    Recorder recorder(device, graph, pipelines, frame.slot, commands, bound);
+    Recorder recorder(device_, graph, pipelines_, frame.slot, commands, bound);
     for (const graph::PassPlan& planned : frame.result.plan.passes) {
         PassResult& result = frame.result.passes.emplace_back();
         result.name = planned.name;

@@ -124,7 +124,7 @@ class Executor
     bool up_to_date(const graph::Graph& graph) const;
 
     /// From the next frame on. Nothing at first.
-    void measure(const Measuring& what) { measuring = what; }
+    void measure(const Measuring& what) { measuring_ = what; }
 
     /// The image a graph presented last, in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
     /// for commands submitted to the same queue.
@@ -143,14 +143,14 @@ class Executor
     static void read_times(const Frame& frame, std::chrono::steady_clock::time_point done,
                            FrameResult& result);
 
-    const Device& device;
-    const graph::ShaderLibrary& library;
-    Pipelines pipelines;
-    std::map<std::string, Image, std::less<>> images; // by name, as in memory.images
-    graph::Memory memory;
-    Measuring measuring;
-    std::array<std::unique_ptr<Frame>, 2> frames;
-    std::uint64_t submitted = 0;
+    const Device& device_;
+    const graph::ShaderLibrary& library_;
+    Pipelines pipelines_;
+    std::map<std::string, Image, std::less<>> images_; // by name, as in memory_.images
+    graph::Memory memory_;
+    Measuring measuring_;
+    std::array<std::unique_ptr<Frame>, 2> frames_;
+    std::uint64_t submitted_ = 0;
 };
 
 } // namespace gpu

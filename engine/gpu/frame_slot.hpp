@@ -25,22 +25,22 @@ struct UploadedData
 class UploadArena
 {
   public:
-    explicit UploadArena(const Device& on) : device(on) {}
+    explicit UploadArena(const Device& device) : device_(device) {}
     UploadedData add(std::span<const std::byte> bytes, VkDeviceSize size, VkDeviceSize alignment);
     void reset();
 
   private:
-    const Device& device;
-    std::vector<Buffer> blocks;
-    std::size_t block = 0; // being filled
-    VkDeviceSize used = 0; // bytes of it
+    const Device& device_;
+    std::vector<Buffer> blocks_;
+    std::size_t block_ = 0; // being filled
+    VkDeviceSize used_ = 0; // bytes of it
 };
 
 /// Descriptor sets of one frame; grows by whole pools, which are kept for the frames to come.
 class DescriptorArena
 {
   public:
-    explicit DescriptorArena(const Device& on) : device(on) {}
+    explicit DescriptorArena(const Device& device) : device_(device) {}
     ~DescriptorArena();
     DescriptorArena(const DescriptorArena&) = delete;
     DescriptorArena& operator=(const DescriptorArena&) = delete;
@@ -48,9 +48,9 @@ class DescriptorArena
     void reset();
 
   private:
-    const Device& device;
-    std::vector<VkDescriptorPool> pools;
-    std::size_t pool = 0; // being filled
+    const Device& device_;
+    std::vector<VkDescriptorPool> pools_;
+    std::size_t pool_ = 0; // being filled
 };
 
 /// How often each kind of shader ran. A rasteriser may count helper invocations, or save some.
@@ -70,19 +70,19 @@ class FrameSlot
     void submit(bool calibrate);
     void wait();
 
-    VkDescriptorSet allocate_set(VkDescriptorSetLayout layout) { return sets.allocate(layout); }
-    UploadArena& arena() { return uploads; }
+    VkDescriptorSet allocate_set(VkDescriptorSetLayout layout) { return sets_.allocate(layout); }
+    UploadArena& arena() { return uploads_; }
     void timestamp()
     {
-        timestamps.timestamp(commands.handle());
+        timestamps_.timestamp(commands_.handle());
     } // does nothing on a device without timestamps
     /// Counts what is recorded in between, outside of rendering; nothing when no room was asked for or the
     /// device cannot.
-    void begin_count() { counts.begin(commands.handle()); }
-    void end_count() { counts.end(commands.handle()); }
+    void begin_count() { counts_.begin(commands_.handle()); }
+    void end_count() { counts_.end(commands_.handle()); }
     /// Milliseconds between two timestamps of a finished frame. Only when has_timestamps().
     double milliseconds(std::size_t from, std::size_t to) const;
-    bool has_timestamps() const { return !timestamps.values().empty(); }
+    bool has_timestamps() const { return !timestamps_.values().empty(); }
     /// Of the finished frame's n-th count; none when it was not counted.
     std::optional<Invocations> invocations(std::size_t n) const;
     /// When the first timestamp was taken, by the calibration at submit().
@@ -96,13 +96,13 @@ class FrameSlot
     const Buffer& readback(VkDeviceSize bytes);
 
   private:
-    const Device& device;
-    UploadArena uploads;
-    DescriptorArena sets;
-    Queries timestamps, counts;
-    std::optional<Device::Calibration> calibration; // of the frame submitted last
-    Buffer readback_buffer;
-    CommandBuffer commands; // last: it waits before what it uses goes
+    const Device& device_;
+    UploadArena uploads_;
+    DescriptorArena sets_;
+    Queries timestamps_, counts_;
+    std::optional<Device::Calibration> calibration_; // of the frame submitted last
+    Buffer readback_buffer_;
+    CommandBuffer commands_; // last: it waits before what it uses goes
 };
 
 } // namespace gpu

@@ -31,20 +31,20 @@ class Buffer
     Buffer(Buffer&& other) noexcept;
     Buffer& operator=(Buffer&& other) noexcept;
 
-    VkBuffer handle() const { return buffer; }
-    VkDeviceSize size() const { return bytes; }
+    VkBuffer handle() const { return buffer_; }
+    VkDeviceSize size() const { return bytes_; }
     /// The whole of it. Empty when the host has no access.
-    std::span<std::byte> mapped() const { return {static_cast<std::byte*>(pointer), pointer ? bytes : 0}; }
+    std::span<std::byte> mapped() const { return {static_cast<std::byte*>(pointer_), pointer_ ? bytes_ : 0}; }
     /// Makes what the device wrote, and made available to the host, visible to the CPU.
     void invalidate() const;
 
   private:
-    const Device* owner = nullptr;
-    VkBuffer buffer = VK_NULL_HANDLE;
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    std::size_t bytes = 0;
-    void* pointer = nullptr;
-    bool coherent = true;
+    const Device* owner_ = nullptr;
+    VkBuffer buffer_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    std::size_t bytes_ = 0;
+    void* pointer_ = nullptr;
+    bool coherent_ = true;
 };
 
 class Image
@@ -57,20 +57,20 @@ class Image
     Image(Image&& other) noexcept;
     Image& operator=(Image&& other) noexcept;
 
-    VkImage handle() const { return image; }
-    VkImageView view() const { return image_view; }
-    const graph::ImageDesc& desc() const { return description; }
-    VkImageUsageFlags usage() const { return image_usage; }
+    VkImage handle() const { return image_; }
+    VkImageView view() const { return view_; }
+    const graph::ImageDesc& desc() const { return desc_; }
+    VkImageUsageFlags usage() const { return usage_; }
     VkImageSubresourceRange range() const; // all of it
 
   private:
-    const Device* owner = nullptr;
-    graph::ImageDesc description;
-    std::uint32_t levels = 1;
-    VkImageUsageFlags image_usage = 0;
-    VkImage image = VK_NULL_HANDLE;
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    VkImageView image_view = VK_NULL_HANDLE;
+    const Device* owner_ = nullptr;
+    graph::ImageDesc desc_;
+    std::uint32_t levels_ = 1;
+    VkImageUsageFlags usage_ = 0;
+    VkImage image_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    VkImageView view_ = VK_NULL_HANDLE;
 };
 
 VkImageAspectFlags aspect_of(VkFormat format);

@@ -26,15 +26,15 @@ class Queries
     /// Of a finished frame.
     void fetch();
     /// All values of all queries of the frame fetched last, one query behind the other.
-    std::span<const std::uint64_t> values() const { return results; }
+    std::span<const std::uint64_t> values() const { return results_; }
 
   private:
-    const Device& device;
-    VkQueryType type;
-    VkQueryPipelineStatisticFlags statistics;
-    VkQueryPool pool = VK_NULL_HANDLE;
-    std::uint32_t capacity = 0, room = 0, used = 0;
-    std::vector<std::uint64_t> results;
+    const Device& device_;
+    VkQueryType type_;
+    VkQueryPipelineStatisticFlags statistics_;
+    VkQueryPool pool_ = VK_NULL_HANDLE;
+    std::uint32_t capacity_ = 0, room_ = 0, used_ = 0;
+    std::vector<std::uint64_t> results_;
 };
 
 } // namespace gpu

@@ -13,7 +13,7 @@ class ShaderModule
 {
   public:
     ShaderModule(VkDevice device, std::span<const std::uint32_t> words, const std::string& name);
-    ~ShaderModule() { vkDestroyShaderModule(device, module, nullptr); }
+    ~ShaderModule() { vkDestroyShaderModule(device_, module_, nullptr); }
     ShaderModule(const ShaderModule&) = delete;
     ShaderModule& operator=(const ShaderModule&) = delete;
 
@@ -22,8 +22,8 @@ class ShaderModule
                                           const VkSpecializationInfo* specialisation = nullptr) const;
 
   private:
-    VkDevice device;
-    VkShaderModule module = VK_NULL_HANDLE;
+    VkDevice device_;
+    VkShaderModule module_ = VK_NULL_HANDLE;
 };
 
 struct RasterPipelineInfo

@@ -38,12 +38,12 @@ class Recorder
     VkDescriptorBufferInfo upload(const graph::ShaderGroup::Binding& binding,
                                   const graph::Bindings::Data& data);
 
-    const Device& device;
-    const graph::Graph& graph;
-    Pipelines& pipelines;
-    FrameSlot& slot;
-    VkCommandBuffer commands;
-    std::span<const BoundImage> images; // by ImageId
+    const Device& device_;
+    const graph::Graph& graph_;
+    Pipelines& pipelines_;
+    FrameSlot& slot_;
+    VkCommandBuffer commands_;
+    std::span<const BoundImage> images_; // by ImageId
 };
 
 } // namespace gpu

@@ -139,7 +139,7 @@ void copy_levels(VkCommandBuffer commands, const Buffer& staging, const Image& i
 
 Texture::Texture(const Device& device, const cv::Mat& picture, Encoding encoding, bool mips,
                  const std::string& name)
-    : content_id(new_content_id())
+    : content_id_(new_content_id())
 {
     const VkFormat format = texture_format(picture, encoding);
     if (picture.empty() || format == VK_FORMAT_UNDEFINED)
@@ -148,8 +148,8 @@ Texture::Texture(const Device& device, const cv::Mat& picture, Encoding encoding
     const std::vector<cv::Mat> levels = mips ? mip_chain(picture, encoding) : std::vector<cv::Mat>{picture};
     const graph::ImageDesc desc{static_cast<std::uint32_t>(picture.cols),
                                 static_cast<std::uint32_t>(picture.rows), format};
-    image = Image(device, desc, static_cast<std::uint32_t>(levels.size()),
-                  VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, name);
+    image_ = Image(device, desc, static_cast<std::uint32_t>(levels.size()),
+                   VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, name);
 
     // Each level starts on a multiple of 16, which suits every texel size.
     std::size_t size = 0;
@@ -164,7 +164,7 @@ Texture::Texture(const Device& device, const cv::Mat& picture, Encoding encoding
             std::memcpy(to + static_cast<std::size_t>(y) * row, level.ptr(y), row);
         to += (level.total() * level.elemSize() + 15) / 16 * 16;
     }
-    device.run_once([&](VkCommandBuffer commands) { copy_levels(commands, staging, image, levels); });
+    device.run_once([&](VkCommandBuffer commands) { copy_levels(commands, staging, image_, levels); });
 }
 
 std::vector<cv::Mat> mip_chain(const cv::Mat& picture, Encoding encoding)

@@ -27,11 +27,11 @@ class Texture
     Texture(const Device& device, const cv::Mat& picture, Encoding encoding, bool mips,
             const std::string& name);
 
-    graph::ExternalImage external() const { return {image.desc(), image.view(), content_id}; }
+    graph::ExternalImage external() const { return {image_.desc(), image_.view(), content_id_}; }
 
   private:
-    Image image;
-    std::uint64_t content_id = 0;
+    Image image_;
+    std::uint64_t content_id_ = 0;
 };
 
 /// Half the size each (rounded down, at least 1), down to

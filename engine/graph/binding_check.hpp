@@ -14,8 +14,8 @@ namespace graph {
 class BindingScope
 {
   public:
-    explicit BindingScope(const ComputePass& pass) : own(pass), outer(nullptr) {}
-    BindingScope(const Draw& draw, const RasterPass& pass) : own(draw), outer(&pass) {}
+    explicit BindingScope(const ComputePass& pass) : own_(pass), outer_(nullptr) {}
+    BindingScope(const Draw& draw, const RasterPass& pass) : own_(draw), outer_(&pass) {}
 
     const Bindings::Sampled* sampled(std::string_view name) const;
     const Bindings::Stored* stored(std::string_view name) const;
@@ -23,8 +23,8 @@ class BindingScope
     const Constant* constant(std::string_view name) const;
 
   private:
-    const Bindings& own;
-    const Bindings* outer;
+    const Bindings& own_;
+    const Bindings* outer_;
 };
 
 /// One line for every mistake: "pass forward: shader forward is given no value for albedo".

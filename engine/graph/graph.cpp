@@ -72,20 +72,20 @@ Draw& RasterPass::draw(std::string_view shader)
 
 ImageId Graph::image(std::string_view name, const ImageDesc& desc)
 {
-    images.push_back({name_prefix + std::string(name), desc, {}});
+    images.push_back({name_prefix_ + std::string(name), desc, {}});
     return {static_cast<std::uint32_t>(images.size() - 1)};
 }
 
 ImageId Graph::import(std::string_view name, const ExternalImage& external)
 {
-    images.push_back({name_prefix + std::string(name), external.desc, external});
+    images.push_back({name_prefix_ + std::string(name), external.desc, external});
     return {static_cast<std::uint32_t>(images.size() - 1)};
 }
 
 ComputePass& Graph::compute(std::string_view name, std::string_view shader)
 {
     ComputePass pass;
-    pass.name = name_prefix + std::string(name);
+    pass.name = name_prefix_ + std::string(name);
     pass.shader = shader;
     return std::get<ComputePass>(passes.emplace_back(std::move(pass)));
 }
@@ -93,7 +93,7 @@ ComputePass& Graph::compute(std::string_view name, std::string_view shader)
 RasterPass& Graph::raster(std::string_view name)
 {
     RasterPass pass;
-    pass.name = name_prefix + std::string(name);
+    pass.name = name_prefix_ + std::string(name);
     return std::get<RasterPass>(passes.emplace_back(std::move(pass)));
 }
 

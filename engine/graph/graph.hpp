@@ -123,7 +123,7 @@ class Graph
     /// for instance) after the frame: Executor::presented().
     void present(ImageId image);
     /// Put before the names of what is declared from now on, so that one recipe can be declared twice.
-    void prefix(std::string_view names) { name_prefix = names; }
+    void prefix(std::string_view names) { name_prefix_ = names; }
     /// Something the frame reads on the device, a texture or a mesh, lives until the frame is finished,
     /// even if its owner lets go of it before.
     void keep(std::shared_ptr<const void> used) { kept.push_back(std::move(used)); }
@@ -146,7 +146,7 @@ class Graph
     std::vector<std::shared_ptr<const void>> kept;
 
   private:
-    std::string name_prefix;
+    std::string name_prefix_;
 };
 
 const std::string& name_of(const Pass& pass);

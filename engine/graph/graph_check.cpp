@@ -17,35 +17,35 @@ namespace {
 class Checker
 {
   public:
-    explicit Checker(const Graph& checked) : graph(checked), writers(checked.images.size()) {}
+    explicit Checker(const Graph& graph) : graph_(graph), writers_(graph.images.size()) {}
 
     std::vector<std::string> run()
     {
         check_images();
         check_names();
-        for (const Pass& pass : graph.passes)
+        for (const Pass& pass : graph_.passes)
             for (const ImageAccess& access : accesses(pass))
                 if (access_row(access.usage).writes && known(access.image))
-                    writers[access.image.index].push_back(name_of(pass));
-        for (const Pass& pass : graph.passes) {
+                    writers_[access.image.index].push_back(name_of(pass));
+        for (const Pass& pass : graph_.passes) {
             check_accesses(pass);
             std::visit([&](const auto& p) { check_pass(p); }, pass);
         }
         check_writers();
         check_outputs();
         check_cycles();
-        return std::move(lines);
+        return std::move(lines_);
     }
 
   private:
     template <typename... Args>
     void complain(fmt::format_string<Args...> format, Args&&... args)
     {
-        lines.push_back(fmt::format(format, std::forward<Args>(args)...));
+        lines_.push_back(fmt::format(format, std::forward<Args>(args)...));
     }
 
-    bool known(ImageId id) const { return id.index < graph.images.size(); }
-    const Graph::Image& image(ImageId id) const { return graph.images[id.index]; }
+    bool known(ImageId id) const { return id.index < graph_.images.size(); }
+    const Graph::Image& image(ImageId id) const { return graph_.images[id.index]; }
     std::string image_name(ImageId id) const
     {
         return known(id) ? image(id).name : "an image that is not declared";
@@ -54,7 +54,7 @@ class Checker
     void check_images()
     {
         std::set<std::string> names;
-        for (const Graph::Image& image : graph.images) {
+        for (const Graph::Image& image : graph_.images) {
             if (image.name.empty())
                 complain("image without a name");
             if (!names.insert(image.name).second)
@@ -72,7 +72,7 @@ class Checker
     void check_names()
     {
         std::set<std::string> names;
-        for (const Pass& pass : graph.passes) {
+        for (const Pass& pass : graph_.passes) {
             if (name_of(pass).empty())
                 complain("pass without a name");
             if (!names.insert(name_of(pass)).second)
@@ -93,7 +93,7 @@ class Checker
             const bool depth = is_depth(used.desc.format);
             if (!access_row(usage).writes) {
                 read.insert(id.index);
-                if (!used.external && writers[id.index].empty())
+                if (!used.external && writers_[id.index].empty())
                     complain("pass {}: samples {}, which nobody writes", name, used.name);
                 if (used.desc.samples != 1)
                     complain("pass {}: samples {}, which is multisampled; resolve it first", name, used.name);
@@ -193,21 +193,21 @@ class Checker
 
     void check_writers()
     {
-        for (std::size_t i = 0; i < writers.size(); ++i)
-            if (writers[i].size() > 1)
-                complain("pass {}: writes {}, which pass {} writes too", writers[i][1], graph.images[i].name,
-                         writers[i][0]);
+        for (std::size_t i = 0; i < writers_.size(); ++i)
+            if (writers_[i].size() > 1)
+                complain("pass {}: writes {}, which pass {} writes too", writers_[i][1],
+                         graph_.images[i].name, writers_[i][0]);
     }
 
     void check_outputs()
     {
         std::set<std::string> names;
-        for (const Graph::Readback& readback : graph.readbacks) {
+        for (const Graph::Readback& readback : graph_.readbacks) {
             if (!names.insert(readback.name).second)
                 complain("readback {}: declared twice", readback.name);
             check_output("readback " + readback.name, readback.image);
         }
-        for (const ImageId id : graph.presented)
+        for (const ImageId id : graph_.presented)
             check_output("present", id);
     }
 
@@ -217,7 +217,7 @@ class Checker
             complain("{}: of {}", who, image_name(id));
         else if (image(id).external)
             complain("{}: of {}, which is imported", who, image_name(id));
-        else if (writers[id.index].empty())
+        else if (writers_[id.index].empty())
             complain("{}: of {}, which nobody writes", who, image_name(id));
         else if (image(id).desc.samples != 1)
             complain("{}: of {}, which is multisampled", who, image_name(id));
@@ -225,19 +225,19 @@ class Checker
 
     void check_cycles()
     {
-        const std::vector<std::uint32_t> order = order_passes(graph);
+        const std::vector<std::uint32_t> order = order_passes(graph_);
         std::vector<std::string> stuck;
-        for (std::uint32_t i = 0; i < graph.passes.size(); ++i)
+        for (std::uint32_t i = 0; i < graph_.passes.size(); ++i)
             if (std::find(order.begin(), order.end(), i) == order.end())
-                stuck.push_back(name_of(graph.passes[i]));
+                stuck.push_back(name_of(graph_.passes[i]));
         if (!stuck.empty())
             complain("pass {}: no order is possible, these passes need each other's images: {}",
                      stuck.front(), fmt::join(stuck, ", "));
     }
 
-    const Graph& graph;
-    std::vector<std::vector<std::string>> writers; // of each image, names of passes
-    std::vector<std::string> lines;
+    const Graph& graph_;
+    std::vector<std::vector<std::string>> writers_; // of each image, names of passes
+    std::vector<std::string> lines_;
 };
 
 void add_sampled(std::vector<ImageAccess>& list, const Bindings& bindings, Usage usage)

@@ -51,9 +51,9 @@ class ShaderLibrary
     const ShaderGroup& group(std::string_view name) const;
 
   private:
-    std::map<std::string, std::span<const std::uint32_t>, std::less<>> words;
-    mutable std::map<std::string, std::unique_ptr<Shader>, std::less<>> reflected;
-    mutable std::map<std::string, std::unique_ptr<ShaderGroup>, std::less<>> groups;
+    std::map<std::string, std::span<const std::uint32_t>, std::less<>> words_;
+    mutable std::map<std::string, std::unique_ptr<Shader>, std::less<>> reflected_;
+    mutable std::map<std::string, std::unique_ptr<ShaderGroup>, std::less<>> groups_;
 };
 
 } // namespace graph

@@ -47,16 +47,16 @@ struct FrameKeys
 class Keyboard
 {
   public:
-    void add(const KeyEvent& event) { events.push_back(event); }
+    void add(const KeyEvent& event) { events_.push_back(event); }
     /// As much as one frame can be told without losing or mixing up any of it: text, or keys that write none
     /// (Tab, Enter, Ctrl+S), which have the next frame to themselves as well, for what they do shows only
     /// then. `text_wanted`: somebody is being written to; otherwise all keys are of the second kind.
     FrameKeys take(bool text_wanted);
-    bool empty() const { return events.empty(); }
+    bool empty() const { return events_.empty(); }
 
   private:
-    std::deque<KeyEvent> events;
-    bool resting = false; // the frame before was told of a key that writes nothing
+    std::deque<KeyEvent> events_;
+    bool resting_ = false; // the frame before was told of a key that writes nothing
 };
 
 } // namespace window

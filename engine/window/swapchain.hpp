@@ -54,7 +54,7 @@ class Swapchain
     bool show(const WindowFrame& frame);
     /// What show() would show, as a picture of the window's size (RGB). Empty while minimised.
     cv::Mat3b picture_of(const WindowFrame& frame);
-    UiRenderer& ui() { return ui_renderer; }
+    UiRenderer& ui() { return ui_renderer_; }
 
   private:
     struct Target
@@ -73,18 +73,18 @@ class Swapchain
     void record(VkCommandBuffer commands, const WindowFrame& frame, const Target& target,
                 VkImageLayout final_layout);
 
-    const gpu::Device& device;
-    const Window& window;
-    UiRenderer ui_renderer;
-    VkSurfaceKHR surface = VK_NULL_HANDLE;
-    VkSurfaceFormatKHR format{};
-    VkSwapchainKHR swapchain = VK_NULL_HANDLE;
-    VkExtent2D extent{};
-    std::vector<Target> targets;
-    std::vector<VkSemaphore> finished; // by image: its frame is drawn
-    bool outdated = true;
-    VkSemaphore acquired = VK_NULL_HANDLE;
-    gpu::CommandBuffer commands;
+    const gpu::Device& device_;
+    const Window& window_;
+    UiRenderer ui_renderer_;
+    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
+    VkSurfaceFormatKHR format_{};
+    VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
+    VkExtent2D extent_{};
+    std::vector<Target> targets_;
+    std::vector<VkSemaphore> finished_; // by image: its frame is drawn
+    bool outdated_ = true;
+    VkSemaphore acquired_ = VK_NULL_HANDLE;
+    gpu::CommandBuffer commands_;
 };
 
 } // namespace window

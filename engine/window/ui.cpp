@@ -93,7 +93,7 @@ std::uint64_t hash_of(const ImDrawData& data)
 
 } // namespace
 
-Ui::Ui(Window& shown, double scale_wanted) : window(shown), forced_scale(scale_wanted)
+Ui::Ui(Window& window, double scale) : window_(window), forced_scale_(scale)
 {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
@@ -102,8 +102,8 @@ Ui::Ui(Window& shown, double scale_wanted) : window(shown), forced_scale(scale_w
     io.ConfigInputTextCursorBlink = false; // a blinking cursor would draw for ever
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     io.BackendRendererName = "cicatrix";
-    ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
-    window.listen_to_keys(); // this version of ImGui loses and mixes up keys that come within a frame
+    ImGui_ImplGlfw_InitForVulkan(window_.handle(), true);
+    window_.listen_to_keys(); // this version of ImGui loses and mixes up keys that come within a frame
     set_scale(wanted_scale());
 }
 
@@ -121,13 +121,13 @@ float Ui::pixels_per_unit() const
 
 float Ui::wanted_scale() const
 {
-    return forced_scale > 0 ? float(forced_scale) : window.content_scale() / pixels_per_unit();
+    return forced_scale_ > 0 ? float(forced_scale_) : window_.content_scale() / pixels_per_unit();
 }
 
 void Ui::set_scale(float scale)
 {
-    current_scale = scale;
-    fonts_changed = true;
+    current_scale_ = scale;
+    fonts_changed_ = true;
     ImGuiStyle style;
     set_look(style);
     style.ScaleAllSizes(scale);
@@ -160,13 +160,13 @@ void Ui::tell_keys(const FrameKeys& keys)
 void Ui::tell_mouse()
 {
     ImGuiIO& io = ImGui::GetIO();
-    if (const std::optional<ButtonChange> change = window.take_button_change();
-        change && std::size_t(change->button) < buttons.size())
+    if (const std::optional<ButtonChange> change = window_.take_button_change();
+        change && std::size_t(change->button) < buttons_.size())
     {
-        buttons[std::size_t(change->button)] = change->down;
+        buttons_[std::size_t(change->button)] = change->down;
         io.MousePos = {change->at[0], change->at[1]};
     }
-    std::ranges::copy(buttons, io.MouseDown);
+    std::ranges::copy(buttons_, io.MouseDown);
 }
 
 void Ui::begin(UiRenderer& renderer, const FrameKeys& keys)
@@ -174,19 +174,19 @@ void Ui::begin(UiRenderer& renderer, const FrameKeys& keys)
     tell_keys(keys);
     ImGui_ImplGlfw_NewFrame();
     tell_mouse();
-    if (const float scale = wanted_scale(); scale != current_scale)
+    if (const float scale = wanted_scale(); scale != current_scale_)
         set_scale(scale);
-    if (fonts_changed)
+    if (fonts_changed_)
         renderer.upload_fonts();
-    fonts_changed = false;
+    fonts_changed_ = false;
     ImGui::NewFrame();
 }
 
 const ImDrawData* Ui::end()
 {
     ImGui::Render();
-    last_hash = hash;
-    hash = hash_of(*ImGui::GetDrawData());
+    last_hash_ = hash_;
+    hash_ = hash_of(*ImGui::GetDrawData());
     return ImGui::GetDrawData();
 }
 

@@ -24,11 +24,11 @@ class Ui
     void begin(UiRenderer& renderer, const FrameKeys& keys);
     const ImDrawData* end();
     /// Whether the last end() returned something else than the one before.
-    bool changed() const { return last_hash != hash; }
+    bool changed() const { return last_hash_ != hash_; }
     /// Pixels of the window per unit of ImGui's coordinates.
     float pixels_per_unit() const;
     /// Multiplies sizes given for an ordinary screen.
-    float scale() const { return current_scale; }
+    float scale() const { return current_scale_; }
 
   private:
     void tell_keys(const FrameKeys& keys);
@@ -36,12 +36,12 @@ class Ui
     float wanted_scale() const;
     void set_scale(float scale);
 
-    Window& window;
-    double forced_scale;
-    float current_scale = 0;
-    std::array<bool, 3> buttons{}; // of the mouse, as ImGui has been told
-    bool fonts_changed = true;
-    std::uint64_t hash = 0, last_hash = 0;
+    Window& window_;
+    double forced_scale_;
+    float current_scale_ = 0;
+    std::array<bool, 3> buttons_{}; // of the mouse, as ImGui has been told
+    bool fonts_changed_ = true;
+    std::uint64_t hash_ = 0, last_hash_ = 0;
 };
 
 } // namespace window

@@ -38,15 +38,15 @@ class UiRenderer
     void make_layouts();
     void destroy();
 
-    const gpu::Device& device;
-    std::unique_ptr<gpu::Texture> fonts;
-    VkSampler sampler = VK_NULL_HANDLE;
-    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    std::map<VkFormat, VkPipeline> pipelines;
-    VkDescriptorPool descriptors = VK_NULL_HANDLE;
-    std::map<VkImageView, VkDescriptorSet> sets; // of this frame
-    gpu::Buffer vertices, indices;
+    const gpu::Device& device_;
+    std::unique_ptr<gpu::Texture> fonts_;
+    VkSampler sampler_ = VK_NULL_HANDLE;
+    VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    std::map<VkFormat, VkPipeline> pipelines_;
+    VkDescriptorPool descriptors_ = VK_NULL_HANDLE;
+    std::map<VkImageView, VkDescriptorSet> sets_; // of this frame
+    gpu::Buffer vertices_, indices_;
 };
 
 } // namespace window

@@ -45,7 +45,7 @@ class Window
     static bool can_present(VkInstance instance, VkPhysicalDevice device, std::uint32_t queue_family);
     VkSurfaceKHR make_surface(VkInstance instance) const;
 
-    GLFWwindow* handle() const { return window; }
+    GLFWwindow* handle() const { return window_; }
     /// Pixels; zero while minimised.
     std::array<std::uint32_t, 2> size() const;
     bool minimised() const;
@@ -64,12 +64,12 @@ class Window
     /// it. Asking clears it.
     bool take_damaged();
     /// What this frame is told of the keyboard (Keyboard::take); the rest is for the next ones.
-    FrameKeys take_keys(bool text_wanted) { return keyboard.take(text_wanted); }
+    FrameKeys take_keys(bool text_wanted) { return keyboard_.take(text_wanted); }
     /// The next press or release of a mouse button, to be taken one a frame: on a slow device the pointer is
     /// elsewhere by the time of the frame that sees it.
     std::optional<ButtonChange> take_button_change();
     /// Whether there is something left to take.
-    bool has_input() const { return !keyboard.empty() || !button_changes.empty(); }
+    bool has_input() const { return !keyboard_.empty() || !button_changes_.empty(); }
     /// Receives keys again after somebody else has asked GLFW for them.
     void listen_to_keys();
     /// Files dropped on the window since the last call.
@@ -82,12 +82,12 @@ class Window
   private:
     void install_callbacks();
 
-    GLFWwindow* window = nullptr;
-    bool damaged = true;
-    Keyboard keyboard;
-    std::deque<ButtonChange> button_changes;
-    std::array<float, 2> pointer{}; // after the events so far
-    std::vector<std::filesystem::path> dropped;
+    GLFWwindow* window_ = nullptr;
+    bool damaged_ = true;
+    Keyboard keyboard_;
+    std::deque<ButtonChange> button_changes_;
+    std::array<float, 2> pointer_{}; // after the events so far
+    std::vector<std::filesystem::path> dropped_;
 };
 
 } // namespace window
