@@ -32,10 +32,10 @@ CommandBuffer::~CommandBuffer()
 
 void CommandBuffer::destroy()
 {
-    if (in_flight_) // nothing can be done about a lost device here; everything is destroyed all the same
+    if (in_flight_) // errors are ignored: everything is destroyed even when the device is lost
         vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX);
     vkDestroyFence(device_, fence_, nullptr);
-    vkDestroyCommandPool(device_, pool_, nullptr); // and the buffer with it
+    vkDestroyCommandPool(device_, pool_, nullptr); // frees the command buffer, too
 }
 
 VkCommandBuffer CommandBuffer::begin()

@@ -13,8 +13,8 @@
 #include <mutex>
 
 #ifdef __SANITIZE_ADDRESS__
-// Drivers and layers are kept loaded to the end, or the leak
-// checker could not tell what they still hold from what is lost.
+// Drivers and layers stay loaded until the process ends, or the leak
+// checker would report the memory that they still use as leaked.
 extern "C" int dlclose(void*)
 {
     return 0;
@@ -67,8 +67,8 @@ bool has_instance_extension(const char* name)
     });
 }
 
-/// Debug utils (names, labels, messages) are on wherever there are any: volk keeps one table of entry points
-/// for the process, so every instance must offer the same ones.
+/// Enables VK_EXT_debug_utils (names, labels, messages) wherever it is available: volk has one table of entry
+/// points per process, so all instances must have the same extensions.
 VkInstance make_instance(std::vector<const char*> extensions, const void* next, bool validation)
 {
     if (has_instance_extension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
@@ -86,7 +86,7 @@ VkInstance make_instance(std::vector<const char*> extensions, const void* next, 
                                     .ppEnabledExtensionNames = extensions.data()};
     VkInstance instance = VK_NULL_HANDLE;
     check(vkCreateInstance(&info, nullptr, &instance), "create a Vulkan instance");
-    // The loader's own entry points serve any instance and device, so several of them can live side by side.
+    // Entry points of the loader work with every instance and device, so several can exist at once.
     volkLoadInstance(instance);
     return instance;
 }
@@ -103,7 +103,7 @@ struct Device::Messages
                                                   const VkDebugUtilsMessengerCallbackDataEXT* data,
                                                   void* user)
     {
-        // Drivers speak through the same channel; Mesa's remarks name its source files ("../src/...").
+        // Drivers use the same callback; the ids of Mesa's messages are its source files ("../src/...").
         const std::string_view id = data->pMessageIdName ? data->pMessageIdName : "";
         if (id.starts_with("../src/"))
             return VK_FALSE;
@@ -169,7 +169,7 @@ void Device::create_instance(const DeviceOptions& options)
     const VkValidationFeatureEnableEXT synchronisation =
         VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     const VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
-                                           .pNext = &listener, // hears what is said about the instance itself
+                                           .pNext = &listener, // receives messages about vkCreateInstance
                                            .enabledValidationFeatureCount = 1,
                                            .pEnabledValidationFeatures = &synchronisation};
     instance_ = make_instance(options.instance_extensions, &features, true);
@@ -183,7 +183,7 @@ void Device::create_device(const DeviceOptions& options)
     VkPhysicalDeviceVulkan13Features v13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
                                          .synchronization2 = VK_TRUE,
                                          .dynamicRendering = VK_TRUE,
-                                         .maintenance4 = VK_TRUE}; // for local sizes as SPIR-V 1.6 gives them
+                                         .maintenance4 = VK_TRUE}; // for LocalSizeId of SPIR-V 1.6
     VkPhysicalDeviceVulkan12Features v12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
                                          .pNext = &v13,
                                          .scalarBlockLayout = VK_TRUE};
@@ -241,7 +241,8 @@ std::uint32_t Device::memory_type(std::uint32_t allowed_types,
         for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
             if ((allowed_types >> i & 1u) && (memory_.memoryTypes[i].propertyFlags & flags) == flags)
                 return i;
-    throw InputError(fmt::format("device '{}'", info().name), "it has no memory of the kind that is needed",
+    throw InputError(fmt::format("device '{}'", info().name),
+                     "it has no memory type with the required properties",
                      "choose another device with --device");
 }
 

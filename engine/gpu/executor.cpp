@@ -23,7 +23,7 @@ double milliseconds(Clock::duration time)
     return std::chrono::duration<double, std::milli>(time).count();
 }
 
-/// Of what the pass declares to write, the part that is kept.
+/// Bytes of the images that the pass writes and stores.
 std::uint64_t bytes_written(const graph::Graph& graph, const graph::PassPlan& planned)
 {
     const auto size = [&](graph::ImageId id) {
@@ -50,7 +50,7 @@ std::uint64_t bytes_written(const graph::Graph& graph, const graph::PassPlan& pl
     return bytes;
 }
 
-/// A labelled stretch of commands, for debuggers.
+/// Labels the commands recorded during its lifetime, for debuggers.
 class Label
 {
   public:
@@ -90,7 +90,7 @@ const char* name_of(Alignment alignment)
 cv::Mat FrameResult::mat(graph::ReadbackId id) const
 {
     const Readback& readback = readbacks.at(id.index);
-    // cv::Mat has no constant form; callers get the picture to read.
+    // cv::Mat cannot point to constant data; callers must not write to it.
     void* data = const_cast<std::byte*>(readback.bytes.data());
     return {static_cast<int>(readback.desc.height), static_cast<int>(readback.desc.width),
             graph::find_format(readback.desc.format)->cv_type, data};
@@ -104,18 +104,18 @@ const PassResult& FrameResult::pass(std::string_view name) const
     throw std::out_of_range("no pass " + std::string(name));
 }
 
-/// One of the frames in flight.
+/// A frame in flight.
 struct Executor::Frame
 {
     explicit Frame(const Device& device) : slot(device) {}
 
-    std::vector<std::shared_ptr<const void>> kept; // Graph::keep; the slot, destroyed first, waits
+    std::vector<std::shared_ptr<const void>> kept; // Graph::keep; `slot` is destroyed first and waits
     FrameSlot slot;
     std::uint64_t number = 0;
     Clock::time_point start, recorded, submitted;
-    FrameResult result;                // without what only the finished frame knows
-    std::vector<VkDeviceSize> offsets; // of the read-backs
-    const Buffer* readback = nullptr;  // null when there are none
+    FrameResult result;                // without the results that finish() adds
+    std::vector<VkDeviceSize> offsets; // of the readbacks
+    const Buffer* readback = nullptr;  // null without readbacks
 };
 
 Executor::Executor(const Device& device, const graph::ShaderLibrary& library)
@@ -125,7 +125,7 @@ Executor::Executor(const Device& device, const graph::ShaderLibrary& library)
         frame = std::make_unique<Frame>(device_);
 }
 
-Executor::~Executor() = default; // the frames, destroyed first, wait for what is in flight
+Executor::~Executor() = default; // frames_ is destroyed first and waits for frames in flight
 
 FrameResult Executor::run(const graph::Graph& graph)
 {
@@ -142,7 +142,7 @@ FrameToken Executor::submit(const graph::Graph& graph)
 
     Frame& frame = *frames_[submitted_ % frames_.size()];
     frame.slot.wait();
-    frame.kept = graph.kept; // those of the frame that used the slot last can go
+    frame.kept = graph.kept; // releases the resources of the slot's last frame
     frame.result = {};
     frame.result.plan = graph::schedule(graph, memory_);
     frame.start = start;
@@ -158,7 +158,7 @@ FrameToken Executor::submit(const graph::Graph& graph)
     frame.result.host.schedule_ms = milliseconds(scheduled - start);
     frame.result.host.record_ms = milliseconds(frame.recorded - scheduled);
     frame.result.host.submit_ms = milliseconds(frame.submitted - frame.recorded);
-    memory_ = frame.result.plan.memory; // only now: whatever threw before has changed no image
+    memory_ = frame.result.plan.memory; // after submission: an exception above leaves it unchanged
     frame.number = ++submitted_;
     return {frame.number};
 }
@@ -167,7 +167,7 @@ FrameResult Executor::finish(FrameToken token)
 {
     Frame& frame = *frames_[(token.number - 1) % frames_.size()];
     if (token.number == 0 || frame.number != token.number)
-        throw std::logic_error("Executor::finish: this frame's results are gone");
+        throw std::logic_error("Executor::finish: the results of this frame no longer exist");
     frame.slot.wait();
     const Clock::time_point done = Clock::now();
     FrameResult result = std::move(frame.result);
@@ -196,7 +196,7 @@ bool Executor::up_to_date(const graph::Graph& graph) const
         plan.passes, [](const graph::PassPlan& pass) { return pass.state == graph::PassState::Run; });
 }
 
-/// The timestamps of a frame that was done at `done`: two of each pass that ran, two of the copies.
+/// Converts the timestamps of a frame completed at `done`: two per pass that ran, two for the readbacks.
 void Executor::read_times(const Frame& frame, Clock::time_point done, FrameResult& result)
 {
     const FrameSlot& slot = frame.slot;
@@ -204,7 +204,7 @@ void Executor::read_times(const Frame& frame, Clock::time_point done, FrameResul
     const std::size_t passes = static_cast<std::size_t>(
         std::ranges::count(result.passes, graph::PassState::Run, &PassResult::state));
     const std::size_t last =
-        2 * (passes + (frame.readback ? 1 : 0)) - 1; // there are timestamps, so one of both
+        2 * (passes + (frame.readback ? 1 : 0)) - 1; // a pass ran or images were read back
     const double all_ms = slot.milliseconds(0, last);
     double origin = 0;
     if (const auto first = slot.first_timestamp()) {
@@ -239,11 +239,11 @@ VkImage Executor::presented(std::string_view image_name) const
 void Executor::forget()
 {
     for (auto& [name, state] : memory_.images)
-        state.content_version = 0; // what the GPU may still be doing to it stays known
+        state.content_version = 0; // access states stay, for the next barriers
     memory_.passes.clear();
 }
 
-/// Makes the images this frame touches, and lets go of those that are declared differently or no longer.
+/// Creates the images this frame uses and destroys those that are no longer declared or declared differently.
 void Executor::match_images(const graph::Graph& graph, const graph::Plan& plan)
 {
     const auto fits = [&](const std::string& name, const Image& image) {
@@ -257,7 +257,7 @@ void Executor::match_images(const graph::Graph& graph, const graph::Plan& plan)
             continue;
         }
         check(vkQueueWaitIdle(device_.queue()),
-              "finish the frames that use an image"); // rare: a change of size
+              "finish the frames that use an image"); // rare: after a change of size
         memory_.images.erase(image->first);
         image = images_.erase(image);
     }
@@ -276,8 +276,8 @@ std::vector<BoundImage> Executor::bind_images(const graph::Graph& graph) const
     for (const graph::Graph::Image& image : graph.images) {
         if (image.external)
             bound.push_back({VK_NULL_HANDLE, image.external->view});
-        else if (const auto own = images_.find(image.name); own != images_.end())
-            bound.push_back({own->second.handle(), own->second.view()});
+        else if (const auto found = images_.find(image.name); found != images_.end())
+            bound.push_back({found->second.handle(), found->second.view()});
         else
             bound.push_back({});
     }
@@ -298,8 +298,8 @@ void Executor::record_passes(const graph::Graph& graph, Frame& frame, VkCommandB
         const Clock::time_point start = Clock::now();
         const Label label(commands, planned.name);
         frame.slot.timestamp();
-        // Every pass writes an image, so there always is a barrier between this timestamp and a dispatch.
-        // llvmpipe needs it: without one it reports next to no time for the dispatch.
+        // Every pass writes an image, so there is always a barrier between this timestamp and a dispatch.
+        // llvmpipe needs it: without a barrier it reports almost no time for the dispatch.
         assert(!planned.barriers.empty());
         recorder.barriers(planned.barriers);
         frame.slot.begin_count();

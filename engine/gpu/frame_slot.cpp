@@ -128,7 +128,7 @@ double FrameSlot::milliseconds(std::size_t from, std::size_t to) const
 
 std::optional<Invocations> FrameSlot::invocations(std::size_t n) const
 {
-    const std::span<const std::uint64_t> values = counts_.values(); // in the order of the flags' bits
+    const std::span<const std::uint64_t> values = counts_.values(); // ordered by flag bit
     if (3 * n + 2 >= values.size())
         return std::nullopt;
     return Invocations{values[3 * n], values[3 * n + 1], values[3 * n + 2]};
@@ -139,7 +139,7 @@ std::optional<FrameSlot::Moment> FrameSlot::first_timestamp() const
     if (!calibration_ || !has_timestamps())
         return std::nullopt;
     const std::uint64_t first = timestamps_.values().front();
-    // Later, or by the clocks' deviation a little earlier; ticks wrap, so the shorter way round is meant.
+    // `first` is later, or earlier by at most the deviation; ticks wrap, so take the shorter difference.
     const double after_ms = device_.milliseconds(calibration_->ticks, first),
                  before_ms = device_.milliseconds(first, calibration_->ticks);
     const double offset_ms = after_ms <= before_ms ? after_ms : -before_ms;
@@ -151,7 +151,7 @@ const Buffer& FrameSlot::readback(VkDeviceSize bytes)
 {
     if (readback_buffer_.size() < bytes)
         readback_buffer_ =
-            Buffer(device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostAccess::Read, "read-backs");
+            Buffer(device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostAccess::Read, "readbacks");
     return readback_buffer_;
 }
 

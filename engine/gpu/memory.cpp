@@ -31,7 +31,7 @@ std::uint32_t buffer_memory_type(const Device& device, std::uint32_t types, Host
     constexpr VkMemoryPropertyFlags cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
     switch (host) {
     case HostAccess::Write:
-        return device.memory_type(types, {visible | coherent}); // every device has it
+        return device.memory_type(types, {visible | coherent}); // Vulkan guarantees it
     case HostAccess::Read:
         return device.memory_type(types, {visible | cached | coherent, visible | cached, visible});
     case HostAccess::None:
@@ -40,7 +40,7 @@ std::uint32_t buffer_memory_type(const Device& device, std::uint32_t types, Host
     return device.memory_type(types, {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0});
 }
 
-/// True for images that live only inside a pass: a tiler needs no memory for them.
+/// True for images used only as attachments: a tile-based GPU needs no memory for them.
 bool transient(VkImageUsageFlags usage)
 {
     constexpr VkImageUsageFlags attachments =
@@ -54,7 +54,7 @@ bool transient(VkImageUsageFlags usage)
 
 Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, HostAccess host,
                const std::string& name)
-    : Buffer() // from here on the destructor cleans up after an exception
+    : Buffer() // delegates, so that the destructor runs after an exception
 {
     owner_ = &device;
     bytes_ = size;
@@ -101,7 +101,7 @@ void Buffer::invalidate() const
 {
     if (coherent_)
         return;
-    // The whole allocation: no need to round to nonCoherentAtomSize.
+    // The whole allocation needs no rounding to nonCoherentAtomSize.
     const VkMappedMemoryRange range{.sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE,
                                     .memory = memory_,
                                     .offset = 0,
@@ -114,7 +114,7 @@ void Buffer::invalidate() const
 Image::Image(const Device& device, const graph::ImageDesc& desc, std::uint32_t mip_levels,
              VkImageUsageFlags usage,
              const std::string& name)
-    : Image() // from here on the destructor cleans up after an exception
+    : Image() // delegates, so that the destructor runs after an exception
 {
     owner_ = &device;
     desc_ = desc;
@@ -123,8 +123,8 @@ Image::Image(const Device& device, const graph::ImageDesc& desc, std::uint32_t m
     const std::uint32_t limit = device.limits().maxImageDimension2D;
     if (desc.width > limit || desc.height > limit)
         throw base::InputError(fmt::format("image {}", name),
-                               fmt::format("{} x {} is more than device '{}' can do", desc.width, desc.height,
-                                           device.info().name),
+                               fmt::format("{} x {} exceeds the limit of device '{}'", desc.width,
+                                           desc.height, device.info().name),
                                fmt::format("stay within {} x {}", limit, limit));
     const bool in_pass = transient(usage);
     const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,

@@ -31,7 +31,7 @@ void add_constants(PipelineKey& key, const graph::ShaderGroup& group, const grap
             key.constants.emplace_back(constant.name, bit_pattern(*value));
 }
 
-/// One shader stage with its specialisation constants; lives until the pipeline is made.
+/// One shader stage with its specialisation constants, needed until the pipeline is created.
 struct Stage
 {
     Stage(VkDevice device, const graph::Shader& shader, const PipelineKey& key)
@@ -59,7 +59,7 @@ struct Stage
     VkPipelineShaderStageCreateInfo info{};
 };
 
-/// Only the attributes the shader reads.
+/// The attributes that the shader reads.
 std::vector<VkVertexInputAttributeDescription> attributes(const graph::ShaderInterface& vertex_shader,
                                                           const graph::VertexLayout& vertices)
 {
@@ -141,7 +141,7 @@ const Pipeline& Pipelines::find_or_make(const PipelineKey& key)
 const Pipelines::Layout& Pipelines::layout(const graph::ShaderGroup& group)
 {
     const auto [place, fresh] = layouts_.try_emplace(group.name);
-    Layout& made = place->second; // the destructor finds it here, whatever happens below
+    Layout& made = place->second; // in the map, so that the destructor frees it after an exception
     if (made.pipeline)
         return made;
     std::vector<VkDescriptorSetLayoutBinding> bindings;

@@ -1,4 +1,4 @@
-// Pipelines and samplers, made when first needed and kept.
+// Cache of pipelines, created on first use, and the samplers.
 #pragma once
 #include "engine/graph/binding_check.hpp"
 #include "engine/graph/graph.hpp"
@@ -15,11 +15,11 @@ namespace gpu {
 
 class Device;
 
-/// Everything a pipeline is compiled for.
+/// All state that a pipeline is compiled for.
 struct PipelineKey
 {
     std::string shader;                                           // name of the shader group
-    std::vector<std::pair<std::string, std::uint32_t>> constants; // by name, as bit patterns
+    std::vector<std::pair<std::string, std::uint32_t>> constants; // name and bit pattern
     const graph::VertexLayout* vertices = nullptr;                // null: the draw has no mesh
     std::vector<VkFormat> colors;
     VkFormat depth = VK_FORMAT_UNDEFINED;

@@ -42,7 +42,7 @@ void Queries::timestamp(VkCommandBuffer commands)
     if (room_ == 0)
         return;
     assert(used_ < room_);
-    // ALL_COMMANDS: once everything recorded before is done, so neighbouring passes never share time.
+    // ALL_COMMANDS: after all earlier commands have completed, so the times of passes do not overlap.
     vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_, used_++);
 }
 

@@ -104,7 +104,7 @@ void Recorder::record_draw(const graph::Draw& draw, const graph::RasterPass& pas
         vkCmdDraw(commands_, draw.index_count, 1, draw.first_index, 0);
         return;
     }
-    const auto& mesh = static_cast<const MeshBuffer&>(*draw.mesh); // there is no other kind
+    const auto& mesh = static_cast<const MeshBuffer&>(*draw.mesh); // the only subclass
     const VkBuffer vertices = mesh.vertices();
     constexpr VkDeviceSize offset = 0;
     vkCmdBindVertexBuffers(commands_, 0, 1, &vertices, &offset);
@@ -116,7 +116,7 @@ void Recorder::record_draw(const graph::Draw& draw, const graph::RasterPass& pas
 VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, const graph::BindingScope& scope)
 {
     const VkDescriptorSet set = slot_.allocate_set(pipeline.set_layout);
-    std::deque<VkDescriptorBufferInfo> buffers; // deques: pointers into them must stay valid
+    std::deque<VkDescriptorBufferInfo> buffers; // deques: pointers to elements stay valid
     std::deque<std::vector<VkDescriptorImageInfo>> image_lists;
     std::vector<VkWriteDescriptorSet> writes;
     for (const graph::ShaderGroup::Binding& binding : pipeline.group->bindings) {
@@ -153,7 +153,7 @@ VkDescriptorBufferInfo Recorder::upload(const graph::ShaderGroup::Binding& bindi
     const VkPhysicalDeviceLimits& limits = device_.limits();
     const VkDeviceSize alignment =
         data.storage ? limits.minStorageBufferOffsetAlignment : limits.minUniformBufferOffsetAlignment;
-    // An empty array still needs a place to point at: one element of zeros.
+    // An empty array is bound as one element of zeros.
     const VkDeviceSize least = std::max(binding.size + binding.stride, 4u);
     const UploadedData uploaded =
         slot_.arena().add(data.bytes, std::max<VkDeviceSize>(data.bytes.size(), least), alignment);

@@ -11,10 +11,9 @@ namespace graph {
 
 namespace {
 
-// Every device takes uniform blocks of this size (maxUniformBufferRange).
+// Vulkan's guaranteed minimum of maxUniformBufferRange.
 constexpr std::uint32_t max_uniform_bytes = 16384;
 
-/// Every name that `bindings` gives a value.
 std::set<std::string> given_names(const Bindings& bindings)
 {
     std::set<std::string> names;
@@ -29,7 +28,7 @@ std::set<std::string> given_names(const Bindings& bindings)
     return names;
 }
 
-bool knows(const ShaderGroup& group, std::string_view name)
+bool has_name(const ShaderGroup& group, std::string_view name)
 {
     return group.find_binding(name) || group.find_constant(name);
 }
@@ -65,8 +64,8 @@ class Checker
             check_values(group, BindingScope(pass));
         if (group.problems.empty())
             for (const std::string& name : given_names(pass))
-                if (!knows(group, name))
-                    complain("shader {} knows no {}", pass.shader, name);
+                if (!has_name(group, name))
+                    complain("shader {} has no binding or constant {}", pass.shader, name);
     }
 
     void check(const RasterPass& pass)
@@ -84,12 +83,12 @@ class Checker
                              pass.colors.size());
             }
             for (const std::string& name : given_names(draw))
-                if (group.problems.empty() && !knows(group, name))
-                    complain("shader {} knows no {}", draw.shader, name);
-            std::erase_if(unused, [&](const std::string& name) { return knows(group, name); });
+                if (group.problems.empty() && !has_name(group, name))
+                    complain("shader {} has no binding or constant {}", draw.shader, name);
+            std::erase_if(unused, [&](const std::string& name) { return has_name(group, name); });
         }
         for (const std::string& name : unused)
-            complain("no shader of its draws knows {}", name);
+            complain("no shader of its draws has a binding or constant {}", name);
     }
 
     bool usable(const ShaderGroup& group)
@@ -164,7 +163,7 @@ class Checker
         for (const ShaderInput& input : inputs) {
             const VertexAttribute* given = draw.mesh ? draw.mesh->layout().find(input.name) : nullptr;
             if (draw.mesh && (!given || given->components < input.components))
-                complain("shader {} wants vertex input {} with {} components, which its mesh has not",
+                complain("shader {} wants vertex input {} with {} components, which its mesh lacks",
                          group.name, input.name, input.components);
         }
         if (!inputs.empty() && !draw.mesh)

@@ -1,5 +1,5 @@
-// Whether every pass gives its shaders what they ask for, and
-// nothing else. Needs the shaders' reflection, not a device.
+// Checks that every pass gives its shaders exactly the bindings
+// they declare. Uses the shaders' reflection; needs no device.
 #pragma once
 #include "engine/graph/graph.hpp"
 #include "engine/graph/shader_library.hpp"
@@ -10,7 +10,7 @@
 
 namespace graph {
 
-/// The values a draw or dispatch sees: its own first, then its pass's.
+/// Looks a binding up in the draw or dispatch first, then in its pass.
 class BindingScope
 {
   public:
@@ -27,7 +27,7 @@ class BindingScope
     const Bindings* outer_;
 };
 
-/// One line for every mistake: "pass forward: shader forward is given no value for albedo".
+/// One line for each mistake: "pass forward: shader forward is given no image for albedo".
 std::vector<std::string> check_bindings(const Graph& graph, const ShaderLibrary& library);
 
 } // namespace graph

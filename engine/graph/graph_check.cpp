@@ -13,7 +13,7 @@ namespace graph {
 
 namespace {
 
-/// Collects the lines about one graph.
+/// Collects the mistakes of one graph.
 class Checker
 {
   public:
@@ -62,10 +62,9 @@ class Checker
             if (image.desc.width == 0 || image.desc.height == 0)
                 complain("image {}: its size is {} x {}", image.name, image.desc.width, image.desc.height);
             if (!find_format(image.desc.format))
-                complain("image {}: its format is not one of engine/formats.cpp", image.name);
+                complain("image {}: its format is not one of engine/graph/formats.cpp", image.name);
             if (image.desc.samples != 1 && image.desc.samples != 4)
-                complain("image {}: {} samples, and only 1 and 4 are possible", image.name,
-                         image.desc.samples);
+                complain("image {}: {} samples; only 1 and 4 are possible", image.name, image.desc.samples);
         }
     }
 
@@ -94,7 +93,7 @@ class Checker
             if (!access_row(usage).writes) {
                 read.insert(id.index);
                 if (!used.external && writers_[id.index].empty())
-                    complain("pass {}: samples {}, which nobody writes", name, used.name);
+                    complain("pass {}: samples {}, which no pass writes", name, used.name);
                 if (used.desc.samples != 1)
                     complain("pass {}: samples {}, which is multisampled; resolve it first", name, used.name);
                 continue;
@@ -109,7 +108,7 @@ class Checker
         }
     }
 
-    /// No device need be able to filter depth.
+    /// Vulkan does not require devices to filter depth formats.
     void check_samplers(const std::string& pass, const Bindings& bindings)
     {
         for (const Bindings::Sampled& sampled : bindings.sampled)
@@ -158,7 +157,7 @@ class Checker
         std::optional<ImageDesc> common;
         const auto same = [&](ImageId id) {
             if (!known(id))
-                return; // said by check_accesses
+                return; // check_accesses reports it
             const ImageDesc& desc = image(id).desc;
             if (!common)
                 common = desc;
@@ -214,13 +213,13 @@ class Checker
     void check_output(const std::string& who, ImageId id)
     {
         if (!known(id))
-            complain("{}: of {}", who, image_name(id));
+            complain("{}: uses {}", who, image_name(id));
         else if (image(id).external)
-            complain("{}: of {}, which is imported", who, image_name(id));
+            complain("{}: uses {}, which is imported", who, image_name(id));
         else if (writers_[id.index].empty())
-            complain("{}: of {}, which nobody writes", who, image_name(id));
+            complain("{}: uses {}, which no pass writes", who, image_name(id));
         else if (image(id).desc.samples != 1)
-            complain("{}: of {}, which is multisampled", who, image_name(id));
+            complain("{}: uses {}, which is multisampled", who, image_name(id));
     }
 
     void check_cycles()
@@ -236,7 +235,7 @@ class Checker
     }
 
     const Graph& graph_;
-    std::vector<std::vector<std::string>> writers_; // of each image, names of passes
+    std::vector<std::vector<std::string>> writers_; // by image: names of passes
     std::vector<std::string> lines_;
 };
 
@@ -281,8 +280,7 @@ std::vector<std::uint32_t> order_passes(const Graph& graph)
 {
     const auto count = static_cast<std::uint32_t>(graph.passes.size());
     std::vector<std::vector<ImageAccess>> touched(count);
-    std::map<std::uint32_t, std::set<std::uint32_t>>
-        unwritten; // image -> its writers that are not yet in the order
+    std::map<std::uint32_t, std::set<std::uint32_t>> unwritten; // image -> its writers not yet in the order
     for (std::uint32_t i = 0; i < count; ++i) {
         touched[i] = accesses(graph.passes[i]);
         for (const ImageAccess& access : touched[i])
@@ -303,7 +301,7 @@ std::vector<std::uint32_t> order_passes(const Graph& graph)
         for (std::uint32_t i = 0; i < count && !progress; ++i) {
             if (done[i] || !ready(i))
                 continue;
-            done[i] = progress = true; // and start again at the first: as declared, wherever that is possible
+            done[i] = progress = true; // restart at the first pass, to keep the declared order
             order.push_back(i);
             for (const ImageAccess& access : touched[i])
                 if (access_row(access.usage).writes)

@@ -37,7 +37,7 @@ void add_draw(std::vector<KeyPart>& key, const std::string& prefix, const Draw& 
     add_bindings(key, prefix, draw);
 }
 
-/// What a pass declares, images apart.
+/// The key of a pass without its images.
 std::vector<KeyPart> declared_key(const Pass& pass)
 {
     std::vector<KeyPart> key;
@@ -61,7 +61,7 @@ std::vector<KeyPart> declared_key(const Pass& pass)
     return key;
 }
 
-/// One frame's worth of work on a copy of the memory.
+/// Schedules one frame.
 class Scheduler
 {
   public:
@@ -75,11 +75,11 @@ class Scheduler
         for (const std::uint32_t pass : order_passes(graph_))
             plan_.passes.push_back({.pass = pass, .name = name_of(graph_.passes[pass])});
         for (const PassPlan& pass : plan_.passes)
-            touched_.push_back(accesses(graph_.passes[pass.pass]));
+            accesses_.push_back(accesses(graph_.passes[pass.pass]));
         plan_.images.resize(graph_.images.size());
         plan_.memory.frames = before_.frames + 1;
         cull();
-        recall_images();
+        restore_images();
         for (std::uint32_t position = 0; position < plan_.passes.size(); ++position)
             plan_pass(position);
         finish();
@@ -90,7 +90,7 @@ class Scheduler
     const std::string& image_name(ImageId id) const { return graph_.images[id.index].name; }
     static bool writes(const ImageAccess& access) { return access_row(access.usage).writes; }
 
-    /// From the outputs backwards: a pass is needed when one of its images is.
+    /// From the last pass to the first: a pass is needed when an image it writes is needed.
     void cull()
     {
         for (const Graph::Readback& readback : graph_.readbacks)
@@ -100,10 +100,10 @@ class Scheduler
         for (std::size_t i = plan_.passes.size(); i-- > 0;) {
             PassPlan& pass = plan_.passes[i];
             const bool needed =
-                std::any_of(touched_[i].begin(), touched_[i].end(), [&](const ImageAccess& access) {
+                std::any_of(accesses_[i].begin(), accesses_[i].end(), [&](const ImageAccess& access) {
                     return writes(access) && plan_.images[access.image.index].needed;
                 });
-            for (const ImageAccess& access : touched_[i]) {
+            for (const ImageAccess& access : accesses_[i]) {
                 plan_.images[access.image.index].usage |= access_row(access.usage).image;
                 if (needed && !writes(access))
                     plan_.images[access.image.index].needed = true;
@@ -123,17 +123,17 @@ class Scheduler
 
     std::string why_culled(std::size_t position) const
     {
-        const auto output = std::find_if(touched_[position].begin(), touched_[position].end(), writes);
+        const auto output = std::find_if(accesses_[position].begin(), accesses_[position].end(), writes);
         for (std::size_t i = position + 1; i < plan_.passes.size(); ++i)
-            for (const ImageAccess& access : touched_[i])
+            for (const ImageAccess& access : accesses_[i])
                 if (!writes(access) && access.image == output->image)
                     return fmt::format("unused: only {} samples {}, and it is culled", plan_.passes[i].name,
                                        image_name(output->image));
         return "unused: nothing samples " + image_name(output->image);
     }
 
-    /// What is known about the images' contents; an image that must be made anew has none.
-    void recall_images()
+    /// Copies the remembered state of each image; an image that must be recreated starts without contents.
+    void restore_images()
     {
         for (std::size_t i = 0; i < graph_.images.size(); ++i) {
             const Graph::Image& image = graph_.images[i];
@@ -156,20 +156,20 @@ class Scheduler
                 plan_.memory.passes.insert(*key);
             return;
         }
-        for (const ImageAccess& access : touched_[position]) {
+        for (const ImageAccess& access : accesses_[position]) {
             ImagePlan& image = plan_.images[access.image.index];
             image.first = std::min(image.first, position);
             image.last = position;
         }
         std::vector<KeyPart> key = full_key(position);
         const bool always = std::visit([](const auto& p) { return p.always; }, graph_.passes[planned.pass]);
-        const std::string lost = stamp_outputs(position, key, always);
-        if (lost.empty()) {
+        const std::string outdated = update_outputs(position, key, always);
+        if (outdated.empty()) {
             planned.state = PassState::Skipped;
             planned.reason = "unchanged";
         } else {
-            planned.reason = always ? "every frame" : why_run(planned.name, key, lost);
-            place(position);
+            planned.reason = always ? "every frame" : why_run(planned.name, key, outdated);
+            plan_run(position);
         }
         plan_.memory.passes[planned.name] = std::move(key);
     }
@@ -177,7 +177,7 @@ class Scheduler
     std::vector<KeyPart> full_key(std::uint32_t position) const
     {
         std::vector<KeyPart> key = declared_key(graph_.passes[plan_.passes[position].pass]);
-        for (const ImageAccess& access : touched_[position]) {
+        for (const ImageAccess& access : accesses_[position]) {
             const ImageDesc& desc = graph_.images[access.image.index].desc;
             if (writes(access))
                 key.push_back({"size of " + image_name(access.image), base::Hash()
@@ -193,7 +193,7 @@ class Scheduler
         return key;
     }
 
-    /// Which image goes to which name of the shader, and how it is filtered.
+    /// Shader name, filter and number of images of each sampled binding.
     static void add_samplers(std::vector<KeyPart>& key, const Pass& pass)
     {
         base::Hash hash;
@@ -211,30 +211,30 @@ class Scheduler
         key.push_back({"samplers", hash.value()});
     }
 
-    /// Gives every output its content_version and returns the first
-    /// needed one that does not hold it already; empty: all do.
-    std::string stamp_outputs(std::uint32_t position, const std::vector<KeyPart>& key, bool always)
+    /// Gives every output its content_version and returns the name of the
+    /// first needed output that is not up to date; empty: all are.
+    std::string update_outputs(std::uint32_t position, const std::vector<KeyPart>& key, bool always)
     {
         base::Hash hash;
         for (const KeyPart& part : key)
             hash.add(part.what).add(part.hash);
         if (always)
-            hash.add(plan_.memory.frames); // never the same again
-        std::string lost;
-        for (const ImageAccess& access : touched_[position]) {
+            hash.add(plan_.memory.frames); // differs in every frame
+        std::string outdated;
+        for (const ImageAccess& access : accesses_[position]) {
             if (!writes(access))
                 continue;
             const std::uint32_t image = access.image.index;
             content_versions_[image] = base::Hash(hash).add(image_name(access.image)).value();
-            if (lost.empty() && plan_.images[image].needed &&
+            if (outdated.empty() && plan_.images[image].needed &&
                 states_[image].content_version != content_versions_[image])
-                lost = image_name(access.image);
+                outdated = image_name(access.image);
         }
-        return lost;
+        return outdated;
     }
 
     std::string why_run(const std::string& pass, const std::vector<KeyPart>& key,
-                        const std::string& lost) const
+                        const std::string& outdated) const
     {
         const auto last = before_.passes.find(pass);
         if (last == before_.passes.end())
@@ -243,18 +243,18 @@ class Scheduler
             if (i >= last->second.size() || last->second[i] != key[i])
                 return "changed: " + key[i].what;
         if (last->second.size() > key.size())
-            return "changed: " + last->second[key.size()].what + " is gone";
-        return "changed: the contents of " + lost + " were not kept";
+            return "changed: " + last->second[key.size()].what + " was removed";
+        return "changed: the contents of " + outdated + " were not kept";
     }
 
-    /// Barriers, store ops and what the images hold afterwards.
-    void place(std::uint32_t position)
+    /// Plans the barriers and store operations of a pass that runs and updates its images' state.
+    void plan_run(std::uint32_t position)
     {
         PassPlan& planned = plan_.passes[position];
-        for (const ImageAccess& access : touched_[position]) {
+        for (const ImageAccess& access : accesses_[position]) {
             const std::uint32_t image = access.image.index;
             if (graph_.images[image].external)
-                continue; // always ready to be sampled
+                continue; // always in the layout for sampling
             if (const auto barrier = advance(states_[image].access, access.usage))
                 planned.barriers.push_back({access.image, *barrier});
             if (writes(access))
@@ -289,10 +289,9 @@ class Scheduler
     const Graph& graph_;
     const Memory& before_;
     Plan plan_;
-    std::vector<std::vector<ImageAccess>> touched_; // by position in plan.passes
-    std::vector<ImageState> states_;                // by image
-    std::vector<std::uint64_t>
-        content_versions_; // by image: what it holds once its writer has run or been skipped
+    std::vector<std::vector<ImageAccess>> accesses_; // by position in plan.passes
+    std::vector<ImageState> states_;                 // by image
+    std::vector<std::uint64_t> content_versions_;    // by image: after its writer has run or been skipped
 };
 
 } // namespace

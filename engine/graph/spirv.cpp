@@ -16,7 +16,7 @@ namespace {
 struct Instruction
 {
     spv::Op op;
-    std::span<const std::uint32_t> words; // operands, the first word left out
+    std::span<const std::uint32_t> words; // operands, without the first word
 };
 
 std::string text_at(std::span<const std::uint32_t> words)
@@ -109,7 +109,7 @@ class Reflector
                 std::copy_n(i.words.begin() + 2, 3, out_.local_size.begin());
             break;
         case spv::OpExecutionModeId:
-            if (i.words[1] == spv::ExecutionModeLocalSizeId) // how SPIR-V 1.6 says it
+            if (i.words[1] == spv::ExecutionModeLocalSizeId) // the form of SPIR-V 1.6
                 local_size_ids_ = i.words.subspan(2, 3);
             break;
         case spv::OpName:
@@ -162,7 +162,7 @@ class Reflector
     {
         const Id id = i.words[1];
         if (i.op == spv::OpSpecConstant)
-            values_[id] = i.words[2]; // its default: the length of an array may be one
+            values_[id] = i.words[2]; // default value; array lengths may be specialisation constants
         const auto number = decoration(id, spv::DecorationSpecId);
         if (!number)
             return;
@@ -190,8 +190,8 @@ class Reflector
         return found == member_decorations_.end() ? std::nullopt : std::optional(found->second);
     }
 
-    /// Bytes of a value of this type, as member `member` of
-    /// struct `parent` (which says how a matrix is laid out).
+    /// Bytes of a value of this type as member `member` of struct
+    /// `parent`, which decorates matrices with their stride.
     std::uint32_t size_of(Id id, Id parent = 0, std::uint32_t member = 0) const
     {
         const Instruction& type = types_.at(id);
@@ -204,7 +204,7 @@ class Reflector
         case spv::OpTypeVector:
             return size_of(type.words[1]) * type.words[2];
         case spv::OpTypeMatrix: {
-            // Columns (or rows) lie `stride` apart, the last one has no padding behind it.
+            // Columns (or rows) are `stride` apart; the last has no padding after it.
             const std::uint32_t column = size_of(type.words[1]);
             const auto stride = member_decoration(parent, member, spv::DecorationMatrixStride);
             return stride.value_or(column) * (type.words[2] - 1) + column;
@@ -317,10 +317,10 @@ class Reflector
         }
         if (binding.type == VK_DESCRIPTOR_TYPE_MAX_ENUM ||
             (binding.count != 1 && binding.type != VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER))
-            out_.unsupported.push_back("binding " + binding.name + " of a kind the engine cannot give");
+            out_.unsupported.push_back("binding " + binding.name + " of a kind the engine does not support");
         if (binding.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE && binding.format == VK_FORMAT_UNDEFINED)
             out_.unsupported.push_back("storage image " + binding.name +
-                                       " of a format the engine does not have");
+                                       " of a format the engine does not support");
         if (binding.set != 0)
             out_.unsupported.push_back("binding " + binding.name + " in a set other than 0");
         out_.bindings.push_back(std::move(binding));

@@ -24,12 +24,12 @@ FrameKeys Keyboard::take(bool text_wanted)
 {
     using enum KeyEvent::Kind;
     FrameKeys frame;
-    const bool rests = std::exchange(resting_, false);
-    std::vector<int> down; // in this frame, by keys that write nothing
+    const bool was_resting = std::exchange(resting_, false);
+    std::vector<int> down; // pressed in this frame, writing no text
     for (; !events_.empty(); events_.pop_front()) {
         const KeyEvent& event = events_.front();
         if (event.kind == Text) {
-            if (text_wanted && (rests || resting_))
+            if (text_wanted && (was_resting || resting_))
                 break;
             if (text_wanted)
                 frame.text.push_back(event.text);
@@ -38,15 +38,15 @@ FrameKeys Keyboard::take(bool text_wanted)
                 break;
             frame.changes.push_back({event.key, false});
         } else if (is_modifier(event.key)) {
-            if (!frame.text.empty() && !is_shift(event.key)) // text under Ctrl would be none
+            if (!frame.text.empty() && !is_shift(event.key)) // with Ctrl down the text would be ignored
                 break;
             if (event.kind == Down)
                 frame.changes.push_back({event.key, true});
         } else {
-            // A space also presses buttons: a key that writes nothing, and its text behind it.
+            // A space also presses buttons, so it counts as a key that writes no text; its text follows.
             const bool writes =
                 text_wanted && events_.size() > 1 && events_[1].kind == Text && events_[1].text != U' ';
-            if (writes ? rests || resting_ : !frame.text.empty() || (rests && event.kind == Down))
+            if (writes ? was_resting || resting_ : !frame.text.empty() || (was_resting && event.kind == Down))
                 break;
             frame.presses.push_back(event.press);
             if (event.kind == Down)

@@ -14,18 +14,17 @@ namespace window {
 
 namespace {
 
-constexpr std::uint64_t patience_ns =
-    100'000'000; // a hidden window may give no image for as long as it is hidden
+constexpr std::uint64_t acquire_timeout_ns = 100'000'000; // a hidden window may never provide an image
 constexpr VkImageSubresourceRange whole{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
 
-/// One step in the life of a window's image: what it waits for, what comes next.
+/// A use of a window's image; a barrier goes from one step to the next.
 struct Step
 {
     VkPipelineStageFlags2 stages;
     VkAccessFlags2 access;
     VkImageLayout layout;
 };
-// The wait for the image to be free happens in the transfer stage; see submit().
+// The semaphore of the free image is waited for in the transfer stage; see show().
 constexpr Step free_image{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED},
     copied_to{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL},
@@ -53,7 +52,7 @@ bool usable(VkPhysicalDevice device, VkFormat format)
     return (properties.optimalTilingFeatures & needed) == needed;
 }
 
-/// Pictures and interface are sRGB-encoded already: a format that encodes once more would wash them out.
+/// Chooses a UNORM format: pictures and interface are already sRGB-encoded and must not be encoded twice.
 VkSurfaceFormatKHR choose_format(VkPhysicalDevice device, VkSurfaceKHR surface)
 {
     std::uint32_t count = 0;
@@ -69,7 +68,7 @@ VkSurfaceFormatKHR choose_format(VkPhysicalDevice device, VkSurfaceKHR surface)
             if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR &&
                 usable(device, wanted))
                 return format;
-    throw base::InputError("window", "the device offers no plain 8-bit colour for it",
+    throw base::InputError("window", "the device offers no suitable colour format for it",
                            "choose another with --device; cicatrix capture works without a window");
 }
 
@@ -126,7 +125,7 @@ Swapchain::~Swapchain()
 
 void Swapchain::destroy()
 {
-    vkQueueWaitIdle(device_.queue()); // presentation has no fence
+    vkQueueWaitIdle(device_.queue()); // no fence signals the end of presentation
     destroy_swapchain();
     if (surface_)
         vkDestroySurfaceKHR(device_.instance(), surface_, nullptr);
@@ -160,7 +159,7 @@ void Swapchain::make_surface()
     outdated_ = true;
 }
 
-/// The window's surface is gone (its display server restarted, the screen was switched): take a new one.
+/// Recreates a lost surface (the display server restarted, the screen was switched).
 void Swapchain::lose_surface()
 {
     vkQueueWaitIdle(device_.queue());
@@ -186,7 +185,7 @@ bool Swapchain::match_window()
     }
     gpu::check(asked, "ask for the window's size");
     VkExtent2D size = capabilities.currentExtent;
-    if (size.width == ~0u) // the window takes the size of what is drawn to it
+    if (size.width == ~0u) // the swapchain determines the window's size
         size = {std::clamp(width, capabilities.minImageExtent.width, capabilities.maxImageExtent.width),
                 std::clamp(height, capabilities.minImageExtent.height, capabilities.maxImageExtent.height)};
     if (size.width == 0 || size.height == 0)
@@ -206,7 +205,7 @@ void Swapchain::make_swapchain(const VkSurfaceCapabilitiesKHR& capabilities, VkE
     const std::uint32_t most = capabilities.maxImageCount > 0 ? capabilities.maxImageCount : ~0u;
     VkCompositeAlphaFlagBitsKHR alpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
     if (!(capabilities.supportedCompositeAlpha & alpha))
-        alpha = VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR; // ours is 1 everywhere
+        alpha = VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR; // our alpha is 1 everywhere
     const VkSwapchainCreateInfoKHR info{.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
                                         .surface = surface_,
                                         .minImageCount = std::min(capabilities.minImageCount + 1, most),
@@ -217,7 +216,8 @@ void Swapchain::make_swapchain(const VkSurfaceCapabilitiesKHR& capabilities, VkE
                                         .imageUsage = usage,
                                         .preTransform = capabilities.currentTransform,
                                         .compositeAlpha = alpha,
-                                        .presentMode = VK_PRESENT_MODE_FIFO_KHR, // everywhere; does not tear
+                                        .presentMode =
+                                            VK_PRESENT_MODE_FIFO_KHR, // always supported; no tearing
                                         .clipped = VK_TRUE};
     gpu::check(vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &swapchain_), "draw to the window");
     std::uint32_t count = 0;
@@ -292,11 +292,11 @@ bool Swapchain::show(const WindowFrame& frame)
 {
     if (!match_window())
         return false;
-    // The last frame's commands, vertices and semaphore are used again.
+    // This frame reuses the last frame's command buffer, vertices and semaphore.
     commands_.wait();
     std::uint32_t index = 0;
-    const VkResult got =
-        vkAcquireNextImageKHR(device_.handle(), swapchain_, patience_ns, acquired_, VK_NULL_HANDLE, &index);
+    const VkResult got = vkAcquireNextImageKHR(device_.handle(), swapchain_, acquire_timeout_ns, acquired_,
+                                               VK_NULL_HANDLE, &index);
     if (got == VK_ERROR_SURFACE_LOST_KHR)
         lose_surface();
     outdated_ = outdated_ || got == VK_ERROR_OUT_OF_DATE_KHR || got == VK_SUBOPTIMAL_KHR;

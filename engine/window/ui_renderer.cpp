@@ -14,7 +14,7 @@ namespace window {
 
 namespace {
 
-constexpr std::uint32_t max_textures = 32; // in one frame: the fonts and a few pictures
+constexpr std::uint32_t max_textures = 32; // per frame: the fonts and a few pictures
 
 struct Scale // as in ui.vert
 {
@@ -128,11 +128,11 @@ void UiRenderer::upload_fonts()
     int width = 0, height = 0;
     ImGuiIO& io = ImGui::GetIO();
     io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
-    vkQueueWaitIdle(device_.queue()); // the last frame may still be drawing with the old ones
+    vkQueueWaitIdle(device_.queue()); // the last frame may still use the old ones
     fonts_ = std::make_unique<gpu::Texture>(device_, cv::Mat(height, width, CV_8UC4, pixels),
                                             gpu::Encoding::Linear, false, "fonts");
     io.Fonts->SetTexID(texture_id(*fonts_));
-    io.Fonts->ClearTexData(); // the device has it now
+    io.Fonts->ClearTexData(); // frees the CPU copy
 }
 
 void UiRenderer::upload(const ImDrawData& data)

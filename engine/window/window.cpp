@@ -12,7 +12,7 @@
 #include "base/input_error.hpp"
 #include "engine/gpu/vulkan_check.hpp"
 
-// Declared by GLFW only where Vulkan's own prototypes are, which volk replaces.
+// GLFW declares these only with Vulkan's own prototypes, which volk replaces.
 extern "C" {
 const char** glfwGetRequiredInstanceExtensions(std::uint32_t* count);
 int glfwGetPhysicalDevicePresentationSupport(VkInstance instance, VkPhysicalDevice device,
@@ -41,9 +41,9 @@ Window& self(GLFWwindow* window)
     return *static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
-Window* the_window = nullptr; // for Xlib's handler, which is given no pointer of ours
+Window* the_window = nullptr; // for Xlib's error handler, which takes no user pointer
 
-/// Xlib ends the process when this returns; its own last words are left out by not returning.
+/// Xlib's I/O error handler. It ends the process itself, before Xlib prints its own message.
 int display_lost(void*)
 {
     std::string cure = "open the window again on a running display";
@@ -54,7 +54,7 @@ int display_lost(void*)
     ::_exit(1);
 }
 
-/// GLFW loads Xlib at run time, and so do we; on other window systems there is none and nothing to do.
+/// Installs the handler. GLFW loads Xlib at run time; on other window systems Xlib is not loaded.
 void watch_display()
 {
     void* xlib = ::dlopen("libX11.so.6", RTLD_NOW | RTLD_NOLOAD);
@@ -100,7 +100,7 @@ void Window::install_callbacks()
     glfwSetWindowIconifyCallback(window_, [](GLFWwindow* w, int) { self(w).damaged_ = true; });
     glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) { self(w).damaged_ = true; });
     listen_to_keys();
-    // What GLFW tells when asked is where the pointer is now, not where it was at an event.
+    // Stored at each event, because glfwGetCursorPos returns only the current position.
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
         self(w).pointer_ = {float(x), float(y)};
     });
@@ -197,7 +197,7 @@ void Window::listen_to_keys()
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
         using enum KeyEvent::Kind;
         KeyEvent event{action == GLFW_PRESS ? Down : action == GLFW_REPEAT ? Repeat : Up, key};
-        // A letter by what it writes, not by its place: Ctrl+Z is where the user's keyboard has its Z.
+        // Letters by character, not by key position, so that Ctrl+Z is the key Z of the user's layout.
         const char* name = glfwGetKeyName(key, scancode);
         const bool letter = name && name[0] >= 'a' && name[0] <= 'z' && name[1] == 0;
         event.press = {letter ? name[0] - 'a' + GLFW_KEY_A : key, (mods & GLFW_MOD_CONTROL) != 0,
