@@ -4,20 +4,21 @@
 
 namespace gpu {
 
-CommandBuffer::CommandBuffer(VkDevice used, VkQueue to, std::uint32_t queue_family) : device(used), queue(to)
+CommandBuffer::CommandBuffer(VkDevice device, VkQueue queue, std::uint32_t queue_family)
+    : device_(device), queue_(queue)
 {
     try {
         const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                                 .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                                 .queueFamilyIndex = queue_family};
-        check(vkCreateCommandPool(device, &pool_info, nullptr, &pool), "create a command pool");
+        check(vkCreateCommandPool(device_, &pool_info, nullptr, &pool_), "create a command pool");
         const VkCommandBufferAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                                   .commandPool = pool,
+                                                   .commandPool = pool_,
                                                    .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                                    .commandBufferCount = 1};
-        check(vkAllocateCommandBuffers(device, &allocate, &commands), "allocate a command buffer");
+        check(vkAllocateCommandBuffers(device_, &allocate, &commands_), "allocate a command buffer");
         const VkFenceCreateInfo fence_info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-        check(vkCreateFence(device, &fence_info, nullptr, &fence), "create a fence");
+        check(vkCreateFence(device_, &fence_info, nullptr, &fence_), "create a fence");
     } catch (...) {
         destroy();
         throw;
@@ -31,29 +32,29 @@ CommandBuffer::~CommandBuffer()
 
 void CommandBuffer::destroy()
 {
-    if (in_flight) // nothing can be done about a lost device here; everything is destroyed all the same
-        vkWaitForFences(device, 1, &fence, VK_TRUE, UINT64_MAX);
-    vkDestroyFence(device, fence, nullptr);
-    vkDestroyCommandPool(device, pool, nullptr); // and the buffer with it
+    if (in_flight_) // errors are ignored: everything is destroyed even when the device is lost
+        vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX);
+    vkDestroyFence(device_, fence_, nullptr);
+    vkDestroyCommandPool(device_, pool_, nullptr); // frees the command buffer, too
 }
 
 VkCommandBuffer CommandBuffer::begin()
 {
     wait();
-    check(vkResetCommandPool(device, pool, 0), "reset commands");
+    check(vkResetCommandPool(device_, pool_, 0), "reset commands");
     const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    check(vkBeginCommandBuffer(commands, &info), "record commands");
-    return commands;
+    check(vkBeginCommandBuffer(commands_, &info), "record commands");
+    return commands_;
 }
 
 void CommandBuffer::submit(std::span<const VkSemaphoreSubmitInfo> waits,
                            std::span<const VkSemaphoreSubmitInfo> signals)
 {
-    check(vkEndCommandBuffer(commands), "record commands");
-    check(vkResetFences(device, 1, &fence), "reset a fence");
+    check(vkEndCommandBuffer(commands_), "record commands");
+    check(vkResetFences(device_, 1, &fence_), "reset a fence");
     const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
-                                           .commandBuffer = commands};
+                                           .commandBuffer = commands_};
     const VkSubmitInfo2 info{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
                              .waitSemaphoreInfoCount = static_cast<std::uint32_t>(waits.size()),
                              .pWaitSemaphoreInfos = waits.data(),
@@ -61,16 +62,16 @@ void CommandBuffer::submit(std::span<const VkSemaphoreSubmitInfo> waits,
                              .pCommandBufferInfos = &buffer,
                              .signalSemaphoreInfoCount = static_cast<std::uint32_t>(signals.size()),
                              .pSignalSemaphoreInfos = signals.data()};
-    check(vkQueueSubmit2(queue, 1, &info, fence), "submit commands");
-    in_flight = true;
+    check(vkQueueSubmit2(queue_, 1, &info, fence_), "submit commands");
+    in_flight_ = true;
 }
 
 bool CommandBuffer::wait()
 {
-    if (!in_flight)
+    if (!in_flight_)
         return false;
-    check(vkWaitForFences(device, 1, &fence, VK_TRUE, UINT64_MAX), "finish commands");
-    in_flight = false;
+    check(vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX), "finish commands");
+    in_flight_ = false;
     return true;
 }
 

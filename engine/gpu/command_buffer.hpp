@@ -1,4 +1,4 @@
-// Commands for the device's queue, and the fence that says when it is done with them.
+// A command buffer for the device's queue, and the fence that signals its completion.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -6,33 +6,33 @@
 
 namespace gpu {
 
-/// One command buffer in a pool of its own, recorded and submitted any number of times, one at a time.
+/// One command buffer with its own pool. It can be reused, but only one submission is in flight.
 class CommandBuffer
 {
   public:
     CommandBuffer(VkDevice device, VkQueue queue, std::uint32_t queue_family);
-    ~CommandBuffer(); // waits until the device is done
+    ~CommandBuffer(); // waits for the device
     CommandBuffer(const CommandBuffer&) = delete;
     CommandBuffer& operator=(const CommandBuffer&) = delete;
 
-    /// Waits as wait() does, forgets what was recorded and begins anew.
+    /// Waits as wait() does, resets the command buffer and begins recording.
     VkCommandBuffer begin();
-    /// Ends recording.
+    /// Ends recording and submits.
     void submit(std::span<const VkSemaphoreSubmitInfo> waits = {},
                 std::span<const VkSemaphoreSubmitInfo> signals = {});
-    /// Until the device is done with what was submitted; false: nothing was, or it has been waited for.
+    /// Waits for the submitted commands. False: nothing was in flight.
     bool wait();
-    VkCommandBuffer handle() const { return commands; }
+    VkCommandBuffer handle() const { return commands_; }
 
   private:
     void destroy();
 
-    VkDevice device;
-    VkQueue queue;
-    VkCommandPool pool = VK_NULL_HANDLE;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    VkFence fence = VK_NULL_HANDLE;
-    bool in_flight = false;
+    VkDevice device_;
+    VkQueue queue_;
+    VkCommandPool pool_ = VK_NULL_HANDLE;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    VkFence fence_ = VK_NULL_HANDLE;
+    bool in_flight_ = false;
 };
 
 } // namespace gpu

@@ -13,8 +13,8 @@
 #include <mutex>
 
 #ifdef __SANITIZE_ADDRESS__
-// Drivers and layers are kept loaded to the end, or the leak
-// checker could not tell what they still hold from what is lost.
+// Drivers and layers stay loaded until the process ends, or the leak
+// checker would report the memory that they still use as leaked.
 extern "C" int dlclose(void*)
 {
     return 0;
@@ -67,8 +67,8 @@ bool has_instance_extension(const char* name)
     });
 }
 
-/// Debug utils (names, labels, messages) are on wherever there are any: volk keeps one table of entry points
-/// for the process, so every instance must offer the same ones.
+/// Enables VK_EXT_debug_utils (names, labels, messages) wherever it is available: volk has one table of entry
+/// points per process, so all instances must have the same extensions.
 VkInstance make_instance(std::vector<const char*> extensions, const void* next, bool validation)
 {
     if (has_instance_extension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
@@ -86,7 +86,7 @@ VkInstance make_instance(std::vector<const char*> extensions, const void* next, 
                                     .ppEnabledExtensionNames = extensions.data()};
     VkInstance instance = VK_NULL_HANDLE;
     check(vkCreateInstance(&info, nullptr, &instance), "create a Vulkan instance");
-    // The loader's own entry points serve any instance and device, so several of them can live side by side.
+    // Entry points of the loader work with every instance and device, so several can exist at once.
     volkLoadInstance(instance);
     return instance;
 }
@@ -103,7 +103,7 @@ struct Device::Messages
                                                   const VkDebugUtilsMessengerCallbackDataEXT* data,
                                                   void* user)
     {
-        // Drivers speak through the same channel; Mesa's remarks name its source files ("../src/...").
+        // Drivers use the same callback; the ids of Mesa's messages are its source files ("../src/...").
         const std::string_view id = data->pMessageIdName ? data->pMessageIdName : "";
         if (id.starts_with("../src/"))
             return VK_FALSE;
@@ -124,12 +124,12 @@ struct Device::Messages
     }
 };
 
-Device::Device(const DeviceOptions& options) : messages(std::make_unique<Messages>())
+Device::Device(const DeviceOptions& options) : messages_(std::make_unique<Messages>())
 {
     try {
         create_instance(options);
         const std::string wanted = options.device.empty() ? environment("CICATRIX_DEVICE") : options.device;
-        physical = choose_device(enumerate_devices(vk_instance, options.wishes), wanted);
+        physical_ = choose_device(enumerate_devices(instance_, options.wishes), wanted);
         create_device(options);
     } catch (...) {
         destroy();
@@ -144,14 +144,14 @@ Device::~Device()
 
 void Device::destroy()
 {
-    if (vk_device) {
-        vkDeviceWaitIdle(vk_device);
-        vkDestroyDevice(vk_device, nullptr);
+    if (device_) {
+        vkDeviceWaitIdle(device_);
+        vkDestroyDevice(device_, nullptr);
     }
-    if (messenger)
-        vkDestroyDebugUtilsMessengerEXT(vk_instance, messenger, nullptr);
-    if (vk_instance)
-        vkDestroyInstance(vk_instance, nullptr);
+    if (messenger_)
+        vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+    if (instance_)
+        vkDestroyInstance(instance_, nullptr);
 }
 
 void Device::create_instance(const DeviceOptions& options)
@@ -159,44 +159,44 @@ void Device::create_instance(const DeviceOptions& options)
     load_vulkan();
     const bool validation = options.validation || environment("CICATRIX_VALIDATION") == "1";
     if (!validation) {
-        vk_instance = make_instance(options.instance_extensions, nullptr, false);
+        instance_ = make_instance(options.instance_extensions, nullptr, false);
         return;
     }
     if (!has_layer(validation_layer) || !has_instance_extension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
         throw InputError("Vulkan validation", fmt::format("the layer {} is not installed", validation_layer),
                          "install it (Debian: vulkan-validationlayers) or do without validation");
-    VkDebugUtilsMessengerCreateInfoEXT listener = messages->create_info();
+    VkDebugUtilsMessengerCreateInfoEXT listener = messages_->create_info();
     const VkValidationFeatureEnableEXT synchronisation =
         VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     const VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
-                                           .pNext = &listener, // hears what is said about the instance itself
+                                           .pNext = &listener, // receives messages about vkCreateInstance
                                            .enabledValidationFeatureCount = 1,
                                            .pEnabledValidationFeatures = &synchronisation};
-    vk_instance = make_instance(options.instance_extensions, &features, true);
-    check(vkCreateDebugUtilsMessengerEXT(vk_instance, &listener, nullptr, &messenger),
+    instance_ = make_instance(options.instance_extensions, &features, true);
+    check(vkCreateDebugUtilsMessengerEXT(instance_, &listener, nullptr, &messenger_),
           "listen to the validation layer");
 }
 
 void Device::create_device(const DeviceOptions& options)
 {
-    vkGetPhysicalDeviceMemoryProperties(physical.handle, &memory);
+    vkGetPhysicalDeviceMemoryProperties(physical_.handle, &memory_);
     VkPhysicalDeviceVulkan13Features v13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
                                          .synchronization2 = VK_TRUE,
                                          .dynamicRendering = VK_TRUE,
-                                         .maintenance4 = VK_TRUE}; // for local sizes as SPIR-V 1.6 gives them
+                                         .maintenance4 = VK_TRUE}; // for LocalSizeId of SPIR-V 1.6
     VkPhysicalDeviceVulkan12Features v12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
                                          .pNext = &v13,
                                          .scalarBlockLayout = VK_TRUE};
     VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &v12};
     features.features.shaderStorageImageExtendedFormats = VK_TRUE;
-    features.features.pipelineStatisticsQuery = physical.info.statistics ? VK_TRUE : VK_FALSE;
+    features.features.pipelineStatisticsQuery = physical_.info.statistics ? VK_TRUE : VK_FALSE;
     std::vector<const char*> extensions = options.wishes.extensions;
-    if (physical.info.calibrated)
+    if (physical_.info.calibrated)
         extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
 
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue_info{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
-                                             .queueFamilyIndex = physical.queue_family,
+                                             .queueFamilyIndex = physical_.queue_family,
                                              .queueCount = 1,
                                              .pQueuePriorities = &priority};
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
@@ -205,8 +205,8 @@ void Device::create_device(const DeviceOptions& options)
                                   .pQueueCreateInfos = &queue_info,
                                   .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
                                   .ppEnabledExtensionNames = extensions.data()};
-    check(vkCreateDevice(physical.handle, &info, nullptr, &vk_device), "create a Vulkan device");
-    vkGetDeviceQueue(vk_device, physical.queue_family, 0, &vk_queue);
+    check(vkCreateDevice(physical_.handle, &info, nullptr, &device_), "create a Vulkan device");
+    vkGetDeviceQueue(device_, physical_.queue_family, 0, &queue_);
 }
 
 double Device::milliseconds(std::uint64_t from_tick, std::uint64_t to_tick) const
@@ -228,7 +228,7 @@ std::optional<Device::Calibration> Device::calibrate() const
           .timeDomain = VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT}}};
     std::array<std::uint64_t, 2> values{};
     std::uint64_t deviation_ns = 0;
-    check(vkGetCalibratedTimestampsEXT(vk_device, clocks.size(), clocks.data(), values.data(), &deviation_ns),
+    check(vkGetCalibratedTimestampsEXT(device_, clocks.size(), clocks.data(), values.data(), &deviation_ns),
           "read the device's clock");
     return Calibration{values[0], std::chrono::steady_clock::time_point(std::chrono::nanoseconds(values[1])),
                        static_cast<double>(deviation_ns) * 1e-6};
@@ -238,16 +238,17 @@ std::uint32_t Device::memory_type(std::uint32_t allowed_types,
                                   std::initializer_list<VkMemoryPropertyFlags> wishes) const
 {
     for (const VkMemoryPropertyFlags flags : wishes)
-        for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
-            if ((allowed_types >> i & 1u) && (memory.memoryTypes[i].propertyFlags & flags) == flags)
+        for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
+            if ((allowed_types >> i & 1u) && (memory_.memoryTypes[i].propertyFlags & flags) == flags)
                 return i;
-    throw InputError(fmt::format("device '{}'", info().name), "it has no memory of the kind that is needed",
+    throw InputError(fmt::format("device '{}'", info().name),
+                     "it has no memory type with the required properties",
                      "choose another device with --device");
 }
 
 void Device::run_once(const std::function<void(VkCommandBuffer)>& record) const
 {
-    CommandBuffer commands(vk_device, vk_queue, physical.queue_family);
+    CommandBuffer commands(device_, queue_, physical_.queue_family);
     record(commands.begin());
     commands.submit();
     commands.wait();
@@ -261,19 +262,19 @@ void Device::name(VkObjectType type, std::uint64_t object, const std::string& na
                                              .objectType = type,
                                              .objectHandle = object,
                                              .pObjectName = name.c_str()};
-    check(vkSetDebugUtilsObjectNameEXT(vk_device, &info), "name an object");
+    check(vkSetDebugUtilsObjectNameEXT(device_, &info), "name an object");
 }
 
 std::vector<std::string> Device::validation_messages() const
 {
-    const std::lock_guard lock(messages->mutex);
-    return messages->list;
+    const std::lock_guard lock(messages_->mutex);
+    return messages_->list;
 }
 
 void Device::clear_validation_messages()
 {
-    const std::lock_guard lock(messages->mutex);
-    messages->list.clear();
+    const std::lock_guard lock(messages_->mutex);
+    messages_->list.clear();
 }
 
 std::string describe_devices()

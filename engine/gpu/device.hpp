@@ -1,5 +1,5 @@
 // The Vulkan instance, the device and its queue. Headless; a window adds the extensions it needs through
-// DeviceOptions. The Vulkan library is loaded at run time, so a machine without it gets one clear line.
+// DeviceOptions. The Vulkan library is loaded at run time; without it the constructor throws InputError.
 #pragma once
 #include "engine/gpu/device_choice.hpp"
 
@@ -18,53 +18,53 @@ struct DeviceOptions
 {
     std::string device;      // part of a name or an index; empty: environment CICATRIX_DEVICE, else the best
     bool validation = false; // with synchronisation validation; CICATRIX_VALIDATION=1 does the same
-    std::vector<const char*> instance_extensions; // beyond what headless work needs
-    DeviceWishes wishes;                          // the same of the device
+    std::vector<const char*> instance_extensions; // in addition to those for headless work
+    DeviceWishes wishes;                          // additional requirements on the device
 };
 
-/// Neither copied nor moved; everything made from it must be gone before it.
+/// Neither copied nor moved; everything created from it must be destroyed first.
 class Device
 {
   public:
-    /// Throws base::InputError: no Vulkan library, no fit
-    /// device (and why each was refused), no validation layer.
+    /// Throws base::InputError: no Vulkan library, no suitable device
+    /// (with the reason for each), no validation layer.
     explicit Device(const DeviceOptions& options = {});
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
-    const DeviceInfo& info() const { return physical.info; }
-    const VkPhysicalDeviceLimits& limits() const { return physical.properties.limits; }
-    VkInstance instance() const { return vk_instance; }
-    VkPhysicalDevice physical_device() const { return physical.handle; }
-    VkDevice handle() const { return vk_device; }
-    VkQueue queue() const { return vk_queue; }
-    std::uint32_t queue_family() const { return physical.queue_family; }
-    std::uint32_t timestamp_bits() const { return info().timestamps ? physical.timestamp_bits : 0; }
+    const DeviceInfo& info() const { return physical_.info; }
+    const VkPhysicalDeviceLimits& limits() const { return physical_.properties.limits; }
+    VkInstance instance() const { return instance_; }
+    VkPhysicalDevice physical_device() const { return physical_.handle; }
+    VkDevice handle() const { return device_; }
+    VkQueue queue() const { return queue_; }
+    std::uint32_t queue_family() const { return physical_.queue_family; }
+    std::uint32_t timestamp_bits() const { return info().timestamps ? physical_.timestamp_bits : 0; }
 
-    /// From one of the device's ticks to a later one, right across a wrap, too.
+    /// Time between two timestamps of the device; correct when the counter wraps once.
     double milliseconds(std::uint64_t from_tick, std::uint64_t to_tick) const;
-    /// One moment as the device and as the host see it. None on a device that cannot tell.
+    /// The same moment on the device's and the host's clock.
     struct Calibration
     {
         std::uint64_t ticks = 0;
         std::chrono::steady_clock::time_point host;
-        double deviation_ms = 0; // at most so far apart
+        double deviation_ms = 0; // largest time between the two readings
     };
-    std::optional<Calibration> calibrate() const;
+    std::optional<Calibration> calibrate() const; // none without calibrated timestamps
 
-    /// The first memory type among `allowed_types` with all properties of the first wish that can be granted.
+    /// A memory type among `allowed_types` with all properties of the first of `wishes` that any type has.
     std::uint32_t memory_type(std::uint32_t allowed_types,
                               std::initializer_list<VkMemoryPropertyFlags> wishes) const;
     VkMemoryPropertyFlags memory_flags(std::uint32_t type) const
     {
-        return memory.memoryTypes[type].propertyFlags;
+        return memory_.memoryTypes[type].propertyFlags;
     }
 
-    /// Records commands, submits them and waits. For uploads.
+    /// Records commands, submits them and waits until they have run. For uploads.
     void run_once(const std::function<void(VkCommandBuffer)>& record) const;
 
-    /// Shown by validation messages and debuggers; does nothing without VK_EXT_debug_utils.
+    /// Names an object for validation messages and debuggers; needs VK_EXT_debug_utils, else does nothing.
     void name(VkObjectType type, std::uint64_t object, const std::string& name) const;
 
     /// Every warning and error of the validation layers since
@@ -78,16 +78,16 @@ class Device
     void create_device(const DeviceOptions& options);
     void destroy();
 
-    std::unique_ptr<Messages> messages; // its address is known to the layers
-    VkInstance vk_instance = VK_NULL_HANDLE;
-    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
-    PhysicalDevice physical;
-    VkPhysicalDeviceMemoryProperties memory{};
-    VkDevice vk_device = VK_NULL_HANDLE;
-    VkQueue vk_queue = VK_NULL_HANDLE;
+    std::unique_ptr<Messages> messages_; // on the heap: the layers keep its address
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    PhysicalDevice physical_;
+    VkPhysicalDeviceMemoryProperties memory_{};
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
 };
 
-/// What `cicatrix info` prints: every device, what it offers and what it lacks.
+/// The text of `cicatrix info`: every device with its features and missing requirements.
 std::string describe_devices();
 
 } // namespace gpu

@@ -25,8 +25,8 @@ struct Features
     VkPhysicalDeviceFeatures2 v10{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &v12};
 };
 
-/// Features we cannot do without. All others (64-bit floats, descriptor indexing, push descriptors) are
-/// missing on one software driver or another and are not used; what only measures is used where it is there.
+/// Required features. Some software drivers lack the others (64-bit floats, descriptor indexing, push
+/// descriptors), so they are not used. Features for measuring are optional.
 struct Requirement
 {
     const char* name;
@@ -57,7 +57,7 @@ const char* type_name(VkPhysicalDeviceType type)
     }
 }
 
-/// 0 is best.
+/// Preference for a device type; 0 is best.
 int rank(VkPhysicalDeviceType type)
 {
     constexpr std::array order{VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU,
@@ -84,7 +84,7 @@ void find_queue_family(PhysicalDevice& device)
     device.info.timestamps = family->timestampValidBits > 0 && device.properties.limits.timestampPeriod > 0;
 }
 
-/// Whether the device's ticks and the host's monotonic clock can be read together.
+/// Whether the clocks of device and host (CLOCK_MONOTONIC) can be read at the same moment.
 bool has_calibrated_timestamps(VkPhysicalDevice handle)
 {
     std::uint32_t count = 0;
@@ -173,7 +173,7 @@ PhysicalDevice inspect(VkInstance instance, VkPhysicalDevice handle, const Devic
     find_queue_family(device);
     if (device.properties.apiVersion < VK_API_VERSION_1_3) {
         device.info.missing.insert(device.info.missing.begin(), "Vulkan 1.3");
-        return device; // an older driver may not be asked about the rest
+        return device; // the other queries need Vulkan 1.3
     }
     describe_memory_and_driver(device);
     check_requirements(device);
@@ -255,7 +255,7 @@ const PhysicalDevice& choose_device(const std::vector<PhysicalDevice>& devices, 
             best = &device;
     }
     if (!best)
-        throw InputError("Vulkan", fmt::format("no device is fit: {}", fmt::join(refused, "; ")),
+        throw InputError("Vulkan", fmt::format("no device is suitable: {}", fmt::join(refused, "; ")),
                          "update the driver or install mesa-vulkan-drivers, which can draw on the CPU");
     return *best;
 }
@@ -273,13 +273,13 @@ std::string to_text(const std::vector<PhysicalDevice>& devices)
         text += fmt::format("   memory      {:.1f} GiB\n", info.memory_gib);
         text += fmt::format("   timestamps  {}\n", info.timestamps ? "yes" : "no: passes have no GPU times");
         text += fmt::format("   aligned     {}\n", info.calibrated
-                                                       ? "yes, timestamps as moments of the host's clock"
-                                                       : "no, within submission and fence");
+                                                       ? "yes, timestamps converted to the host's clock"
+                                                       : "no, only bounded by submission and fence");
         text += fmt::format("   counts      {}\n", info.statistics ? "shader invocations" : "none");
         text += fmt::format("   samples     {}\n", fmt::join(info.sample_counts, ", "));
         text += info.missing.empty()
-                    ? "   fit         yes\n"
-                    : fmt::format("   fit         no, it lacks {}\n", fmt::join(info.missing, ", "));
+                    ? "   suitable    yes\n"
+                    : fmt::format("   suitable    no, it lacks {}\n", fmt::join(info.missing, ", "));
     }
     return text;
 }

@@ -1,4 +1,4 @@
-// Which Vulkan devices there are, what each offers, what we ask of one, and which is taken.
+// Lists the Vulkan devices with their features, checks the requirements on a device, and chooses one.
 #pragma once
 #include <functional>
 #include <optional>
@@ -9,23 +9,23 @@
 
 namespace gpu {
 
-/// What `cicatrix info` prints about a device.
+/// Properties of a device that `cicatrix info` prints.
 struct DeviceInfo
 {
     std::string name, type,
-        driver; // type: "discrete GPU", "CPU", ...; driver: name and version as the driver says
+        driver;                    // type: "discrete GPU", "CPU", ...; driver: its own name and version
     std::uint32_t api_version = 0; // VK_API_VERSION
-    double memory_gib = 0;         // of all heaps on the device
+    double memory_gib = 0;         // sum of the device-local heaps
     bool timestamps = false;
     bool statistics = false;                  // shader invocations can be counted
-    bool calibrated = false;                  // its timestamps can be told as moments of the host's clock
-    std::vector<std::uint32_t> sample_counts; // of colour and depth targets
+    bool calibrated = false;                  // its timestamps can be converted to the host's clock
+    std::vector<std::uint32_t> sample_counts; // supported for both colour and depth targets
     bool software = false;                    // a rasteriser that runs on the CPU
-    std::vector<std::string> missing;         // requirements it does not meet; empty: fit
+    std::vector<std::string> missing;         // requirements that the device does not meet; empty: suitable
 };
 
-/// Textures that one shader stage can sample on every device we take: the most that any of our shaders does.
-/// Vulkan itself promises 16.
+/// Required number of textures that one shader stage can sample; our shaders use at most this many.
+/// Vulkan guarantees 16.
 constexpr std::uint32_t textures_per_stage = 32;
 
 struct PhysicalDevice
@@ -37,7 +37,7 @@ struct PhysicalDevice
     std::uint32_t timestamp_bits = 0;
 };
 
-/// What a window asks of a device on top of what drawing does.
+/// Requirements of a window, in addition to those of rendering.
 struct DeviceWishes
 {
     std::vector<const char*> extensions;
@@ -47,12 +47,12 @@ struct DeviceWishes
 
 std::vector<PhysicalDevice> enumerate_devices(VkInstance instance, const DeviceWishes& wishes = {});
 
-/// The device that `wanted` names (an index in the list, or part of a name, any case), or, when it is empty,
-/// the best fit one: discrete before integrated before virtual before CPU. Throws base::InputError saying
-/// why each was refused.
+/// The device that `wanted` names (an index in the list, or part of a name, any case). Empty: the first
+/// suitable device, discrete before integrated before virtual before CPU. Throws base::InputError with the
+/// reason why each device is unsuitable.
 const PhysicalDevice& choose_device(const std::vector<PhysicalDevice>& devices, std::string_view wanted);
 
-/// The list as `cicatrix info` prints it.
+/// The list for `cicatrix info`.
 std::string to_text(const std::vector<PhysicalDevice>& devices);
 
 } // namespace gpu

@@ -23,7 +23,7 @@ double milliseconds(Clock::duration time)
     return std::chrono::duration<double, std::milli>(time).count();
 }
 
-/// Of what the pass declares to write, the part that is kept.
+/// Bytes of the images that the pass writes and stores.
 std::uint64_t bytes_written(const graph::Graph& graph, const graph::PassPlan& planned)
 {
     const auto size = [&](graph::ImageId id) {
@@ -50,27 +50,27 @@ std::uint64_t bytes_written(const graph::Graph& graph, const graph::PassPlan& pl
     return bytes;
 }
 
-/// A labelled stretch of commands, for debuggers.
+/// Labels the commands recorded during its lifetime, for debuggers.
 class Label
 {
   public:
-    Label(VkCommandBuffer to, const std::string& name) : commands(to)
+    Label(VkCommandBuffer commands, const std::string& name) : commands_(commands)
     {
         const VkDebugUtilsLabelEXT info{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
                                         .pLabelName = name.c_str()};
         if (vkCmdBeginDebugUtilsLabelEXT)
-            vkCmdBeginDebugUtilsLabelEXT(commands, &info);
+            vkCmdBeginDebugUtilsLabelEXT(commands_, &info);
     }
     ~Label()
     {
         if (vkCmdEndDebugUtilsLabelEXT)
-            vkCmdEndDebugUtilsLabelEXT(commands);
+            vkCmdEndDebugUtilsLabelEXT(commands_);
     }
     Label(const Label&) = delete;
     Label& operator=(const Label&) = delete;
 
   private:
-    VkCommandBuffer commands;
+    VkCommandBuffer commands_;
 };
 
 } // namespace
@@ -90,7 +90,7 @@ const char* name_of(Alignment alignment)
 cv::Mat FrameResult::mat(graph::ReadbackId id) const
 {
     const Readback& readback = readbacks.at(id.index);
-    // cv::Mat has no constant form; callers get the picture to read.
+    // cv::Mat cannot point to constant data; callers must not write to it.
     void* data = const_cast<std::byte*>(readback.bytes.data());
     return {static_cast<int>(readback.desc.height), static_cast<int>(readback.desc.width),
             graph::find_format(readback.desc.format)->cv_type, data};
@@ -104,28 +104,28 @@ const PassResult& FrameResult::pass(std::string_view name) const
     throw std::out_of_range("no pass " + std::string(name));
 }
 
-/// One of the frames in flight.
+/// A frame in flight.
 struct Executor::Frame
 {
     explicit Frame(const Device& device) : slot(device) {}
 
-    std::vector<std::shared_ptr<const void>> kept; // Graph::keep; the slot, destroyed first, waits
+    std::vector<std::shared_ptr<const void>> kept; // Graph::keep; `slot` is destroyed first and waits
     FrameSlot slot;
     std::uint64_t number = 0;
     Clock::time_point start, recorded, submitted;
-    FrameResult result;                // without what only the finished frame knows
-    std::vector<VkDeviceSize> offsets; // of the read-backs
-    const Buffer* readback = nullptr;  // null when there are none
+    FrameResult result;                // without the results that finish() adds
+    std::vector<VkDeviceSize> offsets; // of the readbacks
+    const Buffer* readback = nullptr;  // null without readbacks
 };
 
-Executor::Executor(const Device& used, const graph::ShaderLibrary& shaders)
-    : device(used), library(shaders), pipelines(used, shaders)
+Executor::Executor(const Device& device, const graph::ShaderLibrary& library)
+    : device_(device), library_(library), pipelines_(device, library)
 {
-    for (auto& frame : frames)
-        frame = std::make_unique<Frame>(device);
+    for (auto& frame : frames_)
+        frame = std::make_unique<Frame>(device_);
 }
 
-Executor::~Executor() = default; // the frames, destroyed first, wait for what is in flight
+Executor::~Executor() = default; // frames_ is destroyed first and waits for frames in flight
 
 FrameResult Executor::run(const graph::Graph& graph)
 {
@@ -136,38 +136,38 @@ FrameToken Executor::submit(const graph::Graph& graph)
 {
     const Clock::time_point start = Clock::now();
     std::vector<std::string> problems = graph::check_graph(graph);
-    const std::vector<std::string> unfit = graph::check_bindings(graph, library);
+    const std::vector<std::string> unfit = graph::check_bindings(graph, library_);
     problems.insert(problems.end(), unfit.begin(), unfit.end());
     graph::throw_if_any(problems);
 
-    Frame& frame = *frames[submitted % frames.size()];
+    Frame& frame = *frames_[submitted_ % frames_.size()];
     frame.slot.wait();
-    frame.kept = graph.kept; // those of the frame that used the slot last can go
+    frame.kept = graph.kept; // releases the resources of the slot's last frame
     frame.result = {};
-    frame.result.plan = graph::schedule(graph, memory);
+    frame.result.plan = graph::schedule(graph, memory_);
     frame.start = start;
     match_images(graph, frame.result.plan);
     const std::vector<BoundImage> bound = bind_images(graph);
     const auto passes = static_cast<std::uint32_t>(graph.passes.size());
     const Clock::time_point scheduled = Clock::now();
-    const VkCommandBuffer commands = frame.slot.begin(2 * passes + 2, measuring.count ? passes : 0);
+    const VkCommandBuffer commands = frame.slot.begin(2 * passes + 2, measuring_.count ? passes : 0);
     record_passes(graph, frame, commands, bound);
     frame.recorded = Clock::now();
-    frame.slot.submit(measuring.align);
+    frame.slot.submit(measuring_.align);
     frame.submitted = Clock::now();
     frame.result.host.schedule_ms = milliseconds(scheduled - start);
     frame.result.host.record_ms = milliseconds(frame.recorded - scheduled);
     frame.result.host.submit_ms = milliseconds(frame.submitted - frame.recorded);
-    memory = frame.result.plan.memory; // only now: whatever threw before has changed no image
-    frame.number = ++submitted;
+    memory_ = frame.result.plan.memory; // after submission: an exception above leaves it unchanged
+    frame.number = ++submitted_;
     return {frame.number};
 }
 
 FrameResult Executor::finish(FrameToken token)
 {
-    Frame& frame = *frames[(token.number - 1) % frames.size()];
+    Frame& frame = *frames_[(token.number - 1) % frames_.size()];
     if (token.number == 0 || frame.number != token.number)
-        throw std::logic_error("Executor::finish: this frame's results are gone");
+        throw std::logic_error("Executor::finish: the results of this frame no longer exist");
     frame.slot.wait();
     const Clock::time_point done = Clock::now();
     FrameResult result = std::move(frame.result);
@@ -191,12 +191,12 @@ FrameResult Executor::finish(FrameToken token)
 
 bool Executor::up_to_date(const graph::Graph& graph) const
 {
-    const graph::Plan plan = graph::schedule(graph, memory);
+    const graph::Plan plan = graph::schedule(graph, memory_);
     return std::ranges::none_of(
         plan.passes, [](const graph::PassPlan& pass) { return pass.state == graph::PassState::Run; });
 }
 
-/// The timestamps of a frame that was done at `done`: two of each pass that ran, two of the copies.
+/// Converts the timestamps of a frame completed at `done`: two per pass that ran, two for the readbacks.
 void Executor::read_times(const Frame& frame, Clock::time_point done, FrameResult& result)
 {
     const FrameSlot& slot = frame.slot;
@@ -204,7 +204,7 @@ void Executor::read_times(const Frame& frame, Clock::time_point done, FrameResul
     const std::size_t passes = static_cast<std::size_t>(
         std::ranges::count(result.passes, graph::PassState::Run, &PassResult::state));
     const std::size_t last =
-        2 * (passes + (frame.readback ? 1 : 0)) - 1; // there are timestamps, so one of both
+        2 * (passes + (frame.readback ? 1 : 0)) - 1; // a pass ran or images were read back
     const double all_ms = slot.milliseconds(0, last);
     double origin = 0;
     if (const auto first = slot.first_timestamp()) {
@@ -232,18 +232,18 @@ void Executor::read_times(const Frame& frame, Clock::time_point done, FrameResul
 
 VkImage Executor::presented(std::string_view image_name) const
 {
-    const auto image = images.find(image_name);
-    return image == images.end() ? VK_NULL_HANDLE : image->second.handle();
+    const auto image = images_.find(image_name);
+    return image == images_.end() ? VK_NULL_HANDLE : image->second.handle();
 }
 
 void Executor::forget()
 {
-    for (auto& [name, state] : memory.images)
-        state.content_version = 0; // what the GPU may still be doing to it stays known
-    memory.passes.clear();
+    for (auto& [name, state] : memory_.images)
+        state.content_version = 0; // access states stay, for the next barriers
+    memory_.passes.clear();
 }
 
-/// Makes the images this frame touches, and lets go of those that are declared differently or no longer.
+/// Creates the images this frame uses and destroys those that are no longer declared or declared differently.
 void Executor::match_images(const graph::Graph& graph, const graph::Plan& plan)
 {
     const auto fits = [&](const std::string& name, const Image& image) {
@@ -251,22 +251,22 @@ void Executor::match_images(const graph::Graph& graph, const graph::Plan& plan)
         return state != plan.memory.images.end() && state->second.desc == image.desc() &&
                state->second.usage == image.usage();
     };
-    for (auto image = images.begin(); image != images.end();) {
+    for (auto image = images_.begin(); image != images_.end();) {
         if (fits(image->first, image->second)) {
             ++image;
             continue;
         }
-        check(vkQueueWaitIdle(device.queue()),
-              "finish the frames that use an image"); // rare: a change of size
-        memory.images.erase(image->first);
-        image = images.erase(image);
+        check(vkQueueWaitIdle(device_.queue()),
+              "finish the frames that use an image"); // rare: after a change of size
+        memory_.images.erase(image->first);
+        image = images_.erase(image);
     }
     for (std::size_t i = 0; i < graph.images.size(); ++i) {
         const std::string& name = graph.images[i].name;
-        if (graph.images[i].external || plan.images[i].first == ~0u || images.contains(name))
+        if (graph.images[i].external || plan.images[i].first == ~0u || images_.contains(name))
             continue;
         const graph::ImageState& state = plan.memory.images.at(name);
-        images.emplace(name, Image(device, state.desc, 1, state.usage, name));
+        images_.emplace(name, Image(device_, state.desc, 1, state.usage, name));
     }
 }
 
@@ -276,8 +276,8 @@ std::vector<BoundImage> Executor::bind_images(const graph::Graph& graph) const
     for (const graph::Graph::Image& image : graph.images) {
         if (image.external)
             bound.push_back({VK_NULL_HANDLE, image.external->view});
-        else if (const auto own = images.find(image.name); own != images.end())
-            bound.push_back({own->second.handle(), own->second.view()});
+        else if (const auto found = images_.find(image.name); found != images_.end())
+            bound.push_back({found->second.handle(), found->second.view()});
         else
             bound.push_back({});
     }
@@ -287,7 +287,7 @@ std::vector<BoundImage> Executor::bind_images(const graph::Graph& graph) const
 void Executor::record_passes(const graph::Graph& graph, Frame& frame, VkCommandBuffer commands,
                              std::span<const BoundImage> bound)
 {
-    Recorder recorder(device, graph, pipelines, frame.slot, commands, bound);
+    Recorder recorder(device_, graph, pipelines_, frame.slot, commands, bound);
     for (const graph::PassPlan& planned : frame.result.plan.passes) {
         PassResult& result = frame.result.passes.emplace_back();
         result.name = planned.name;
@@ -298,8 +298,8 @@ void Executor::record_passes(const graph::Graph& graph, Frame& frame, VkCommandB
         const Clock::time_point start = Clock::now();
         const Label label(commands, planned.name);
         frame.slot.timestamp();
-        // Every pass writes an image, so there always is a barrier between this timestamp and a dispatch.
-        // llvmpipe needs it: without one it reports next to no time for the dispatch.
+        // Every pass writes an image, so there is always a barrier between this timestamp and a dispatch.
+        // llvmpipe needs it: without a barrier it reports almost no time for the dispatch.
         assert(!planned.barriers.empty());
         recorder.barriers(planned.barriers);
         frame.slot.begin_count();

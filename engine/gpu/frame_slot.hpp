@@ -1,4 +1,4 @@
-// What one frame in flight needs of its own: commands, descriptors, a place for uniforms, timestamps.
+// Resources of one frame in flight: commands, descriptors, memory for uniforms and buffers, queries.
 #pragma once
 #include "engine/gpu/command_buffer.hpp"
 #include "engine/gpu/device.hpp"
@@ -14,33 +14,33 @@
 
 namespace gpu {
 
-/// A piece of a buffer that the CPU has written for this frame.
+/// Range of a buffer that the CPU has written for this frame.
 struct UploadedData
 {
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceSize offset = 0, size = 0;
 };
 
-/// Uniform and storage data of one frame; grows by whole buffers, which are kept for the frames to come.
+/// Uniform and storage data of one frame; grows by whole buffers, which later frames reuse.
 class UploadArena
 {
   public:
-    explicit UploadArena(const Device& on) : device(on) {}
+    explicit UploadArena(const Device& device) : device_(device) {}
     UploadedData add(std::span<const std::byte> bytes, VkDeviceSize size, VkDeviceSize alignment);
     void reset();
 
   private:
-    const Device& device;
-    std::vector<Buffer> blocks;
-    std::size_t block = 0; // being filled
-    VkDeviceSize used = 0; // bytes of it
+    const Device& device_;
+    std::vector<Buffer> blocks_;
+    std::size_t block_ = 0; // index of the one being filled
+    VkDeviceSize used_ = 0; // bytes of that block
 };
 
-/// Descriptor sets of one frame; grows by whole pools, which are kept for the frames to come.
+/// Descriptor sets of one frame; grows by whole pools, which later frames reuse.
 class DescriptorArena
 {
   public:
-    explicit DescriptorArena(const Device& on) : device(on) {}
+    explicit DescriptorArena(const Device& device) : device_(device) {}
     ~DescriptorArena();
     DescriptorArena(const DescriptorArena&) = delete;
     DescriptorArena& operator=(const DescriptorArena&) = delete;
@@ -48,12 +48,12 @@ class DescriptorArena
     void reset();
 
   private:
-    const Device& device;
-    std::vector<VkDescriptorPool> pools;
-    std::size_t pool = 0; // being filled
+    const Device& device_;
+    std::vector<VkDescriptorPool> pools_;
+    std::size_t pool_ = 0; // index of the one being filled
 };
 
-/// How often each kind of shader ran. A rasteriser may count helper invocations, or save some.
+/// Number of shader invocations by stage. A device may count helper invocations or skip invocations.
 struct Invocations
 {
     std::uint64_t vertex = 0, fragment = 0, compute = 0;
@@ -64,45 +64,45 @@ class FrameSlot
   public:
     explicit FrameSlot(const Device& device);
 
-    /// Waits for the frame that used the slot last, begins recording; room for so many timestamps and counts.
+    /// Waits for the slot's last frame and begins recording, with at most so many timestamps and counts.
     VkCommandBuffer begin(std::uint32_t timestamps, std::uint32_t counts);
-    /// With `calibrate`, first notes which of the device's ticks is which moment of the host.
+    /// With `calibrate`, first calls Device::calibrate().
     void submit(bool calibrate);
     void wait();
 
-    VkDescriptorSet allocate_set(VkDescriptorSetLayout layout) { return sets.allocate(layout); }
-    UploadArena& arena() { return uploads; }
+    VkDescriptorSet allocate_set(VkDescriptorSetLayout layout) { return sets_.allocate(layout); }
+    UploadArena& arena() { return uploads_; }
     void timestamp()
     {
-        timestamps.timestamp(commands.handle());
+        timestamps_.timestamp(commands_.handle());
     } // does nothing on a device without timestamps
-    /// Counts what is recorded in between, outside of rendering; nothing when no room was asked for or the
-    /// device cannot.
-    void begin_count() { counts.begin(commands.handle()); }
-    void end_count() { counts.end(commands.handle()); }
+    /// Counts the invocations of the commands in between. Call outside of rendering. Does nothing without
+    /// requested counts or device support.
+    void begin_count() { counts_.begin(commands_.handle()); }
+    void end_count() { counts_.end(commands_.handle()); }
     /// Milliseconds between two timestamps of a finished frame. Only when has_timestamps().
     double milliseconds(std::size_t from, std::size_t to) const;
-    bool has_timestamps() const { return !timestamps.values().empty(); }
-    /// Of the finished frame's n-th count; none when it was not counted.
+    bool has_timestamps() const { return !timestamps_.values().empty(); }
+    /// The n-th count of the finished frame; none when it was not counted.
     std::optional<Invocations> invocations(std::size_t n) const;
-    /// When the first timestamp was taken, by the calibration at submit().
+    /// Host time of the first timestamp, from the calibration at submit().
     struct Moment
     {
         std::chrono::steady_clock::time_point time;
-        double error_ms = 0; // either way
+        double error_ms = 0; // in either direction
     };
     std::optional<Moment> first_timestamp() const;
-    /// At least so many bytes for read-backs.
+    /// A buffer for readbacks of at least so many bytes.
     const Buffer& readback(VkDeviceSize bytes);
 
   private:
-    const Device& device;
-    UploadArena uploads;
-    DescriptorArena sets;
-    Queries timestamps, counts;
-    std::optional<Device::Calibration> calibration; // of the frame submitted last
-    Buffer readback_buffer;
-    CommandBuffer commands; // last: it waits before what it uses goes
+    const Device& device_;
+    UploadArena uploads_;
+    DescriptorArena sets_;
+    Queries timestamps_, counts_;
+    std::optional<Device::Calibration> calibration_; // of the last submitted frame
+    Buffer readback_buffer_;
+    CommandBuffer commands_; // last member: its destructor waits before the others are destroyed
 };
 
 } // namespace gpu

@@ -31,7 +31,7 @@ std::uint32_t buffer_memory_type(const Device& device, std::uint32_t types, Host
     constexpr VkMemoryPropertyFlags cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
     switch (host) {
     case HostAccess::Write:
-        return device.memory_type(types, {visible | coherent}); // every device has it
+        return device.memory_type(types, {visible | coherent}); // Vulkan guarantees it
     case HostAccess::Read:
         return device.memory_type(types, {visible | cached | coherent, visible | cached, visible});
     case HostAccess::None:
@@ -40,7 +40,7 @@ std::uint32_t buffer_memory_type(const Device& device, std::uint32_t types, Host
     return device.memory_type(types, {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0});
 }
 
-/// True for images that live only inside a pass: a tiler needs no memory for them.
+/// True for images used only as attachments: a tile-based GPU needs no memory for them.
 bool transient(VkImageUsageFlags usage)
 {
     constexpr VkImageUsageFlags attachments =
@@ -54,31 +54,31 @@ bool transient(VkImageUsageFlags usage)
 
 Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, HostAccess host,
                const std::string& name)
-    : Buffer() // from here on the destructor cleans up after an exception
+    : Buffer() // delegates, so that the destructor runs after an exception
 {
-    owner = &device;
-    bytes = size;
+    owner_ = &device;
+    bytes_ = size;
     const VkBufferCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage};
-    check(vkCreateBuffer(device.handle(), &info, nullptr, &buffer), fmt::format("create buffer {}", name));
+    check(vkCreateBuffer(device.handle(), &info, nullptr, &buffer_), fmt::format("create buffer {}", name));
     VkMemoryRequirements needs{};
-    vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
+    vkGetBufferMemoryRequirements(device.handle(), buffer_, &needs);
     const std::uint32_t type = buffer_memory_type(device, needs.memoryTypeBits, host);
-    coherent = device.memory_flags(type) & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    memory = allocate(device, needs, type);
-    check(vkBindBufferMemory(device.handle(), buffer, memory, 0), fmt::format("bind buffer {}", name));
+    coherent_ = device.memory_flags(type) & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    memory_ = allocate(device, needs, type);
+    check(vkBindBufferMemory(device.handle(), buffer_, memory_, 0), fmt::format("bind buffer {}", name));
     if (host != HostAccess::None)
-        check(vkMapMemory(device.handle(), memory, 0, VK_WHOLE_SIZE, 0, &pointer),
+        check(vkMapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &pointer_),
               fmt::format("map buffer {}", name));
-    device.name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer), name);
+    device.name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer_), name);
 }
 
 Buffer::~Buffer()
 {
-    if (!owner)
+    if (!owner_)
         return;
-    vkDestroyBuffer(owner->handle(), buffer, nullptr);
-    vkFreeMemory(owner->handle(), memory, nullptr);
+    vkDestroyBuffer(owner_->handle(), buffer_, nullptr);
+    vkFreeMemory(owner_->handle(), memory_, nullptr);
 }
 
 Buffer::Buffer(Buffer&& other) noexcept
@@ -88,23 +88,25 @@ Buffer::Buffer(Buffer&& other) noexcept
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept
 {
-    std::swap(owner, other.owner);
-    std::swap(buffer, other.buffer);
-    std::swap(memory, other.memory);
-    std::swap(bytes, other.bytes);
-    std::swap(pointer, other.pointer);
-    std::swap(coherent, other.coherent);
+    std::swap(owner_, other.owner_);
+    std::swap(buffer_, other.buffer_);
+    std::swap(memory_, other.memory_);
+    std::swap(bytes_, other.bytes_);
+    std::swap(pointer_, other.pointer_);
+    std::swap(coherent_, other.coherent_);
     return *this;
 }
 
 void Buffer::invalidate() const
 {
-    if (coherent)
+    if (coherent_)
         return;
-    // The whole allocation: no need to round to nonCoherentAtomSize.
-    const VkMappedMemoryRange range{
-        .sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE, .memory = memory, .offset = 0, .size = VK_WHOLE_SIZE};
-    check(vkInvalidateMappedMemoryRanges(owner->handle(), 1, &range), "read back a buffer");
+    // The whole allocation needs no rounding to nonCoherentAtomSize.
+    const VkMappedMemoryRange range{.sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE,
+                                    .memory = memory_,
+                                    .offset = 0,
+                                    .size = VK_WHOLE_SIZE};
+    check(vkInvalidateMappedMemoryRanges(owner_->handle(), 1, &range), "read back a buffer");
 }
 
 // ---- Image
@@ -112,17 +114,17 @@ void Buffer::invalidate() const
 Image::Image(const Device& device, const graph::ImageDesc& desc, std::uint32_t mip_levels,
              VkImageUsageFlags usage,
              const std::string& name)
-    : Image() // from here on the destructor cleans up after an exception
+    : Image() // delegates, so that the destructor runs after an exception
 {
-    owner = &device;
-    description = desc;
-    levels = mip_levels;
-    image_usage = usage;
+    owner_ = &device;
+    desc_ = desc;
+    levels_ = mip_levels;
+    usage_ = usage;
     const std::uint32_t limit = device.limits().maxImageDimension2D;
     if (desc.width > limit || desc.height > limit)
         throw base::InputError(fmt::format("image {}", name),
-                               fmt::format("{} x {} is more than device '{}' can do", desc.width, desc.height,
-                                           device.info().name),
+                               fmt::format("{} x {} exceeds the limit of device '{}'", desc.width,
+                                           desc.height, device.info().name),
                                fmt::format("stay within {} x {}", limit, limit));
     const bool in_pass = transient(usage);
     const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
@@ -134,32 +136,32 @@ Image::Image(const Device& device, const graph::ImageDesc& desc, std::uint32_t m
                                  .samples = static_cast<VkSampleCountFlagBits>(desc.samples),
                                  .tiling = VK_IMAGE_TILING_OPTIMAL,
                                  .usage = in_pass ? usage | VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT : usage};
-    check(vkCreateImage(device.handle(), &info, nullptr, &image), fmt::format("create image {}", name));
+    check(vkCreateImage(device.handle(), &info, nullptr, &image_), fmt::format("create image {}", name));
     VkMemoryRequirements needs{};
-    vkGetImageMemoryRequirements(device.handle(), image, &needs);
+    vkGetImageMemoryRequirements(device.handle(), image_, &needs);
     const std::uint32_t types = needs.memoryTypeBits;
-    memory = allocate(device, needs,
-                      in_pass ? device.memory_type(types, {VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT,
-                                                           VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0})
-                              : device.memory_type(types, {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0}));
-    check(vkBindImageMemory(device.handle(), image, memory, 0), fmt::format("bind image {}", name));
+    memory_ = allocate(device, needs,
+                       in_pass ? device.memory_type(types, {VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT,
+                                                            VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0})
+                               : device.memory_type(types, {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0}));
+    check(vkBindImageMemory(device.handle(), image_, memory_, 0), fmt::format("bind image {}", name));
     const VkImageViewCreateInfo view_info{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-                                          .image = image,
+                                          .image = image_,
                                           .viewType = VK_IMAGE_VIEW_TYPE_2D,
                                           .format = desc.format,
                                           .subresourceRange = range()};
-    check(vkCreateImageView(device.handle(), &view_info, nullptr, &image_view),
+    check(vkCreateImageView(device.handle(), &view_info, nullptr, &view_),
           fmt::format("view image {}", name));
-    device.name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image), name);
+    device.name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image_), name);
 }
 
 Image::~Image()
 {
-    if (!owner)
+    if (!owner_)
         return;
-    vkDestroyImageView(owner->handle(), image_view, nullptr);
-    vkDestroyImage(owner->handle(), image, nullptr);
-    vkFreeMemory(owner->handle(), memory, nullptr);
+    vkDestroyImageView(owner_->handle(), view_, nullptr);
+    vkDestroyImage(owner_->handle(), image_, nullptr);
+    vkFreeMemory(owner_->handle(), memory_, nullptr);
 }
 
 Image::Image(Image&& other) noexcept
@@ -169,19 +171,19 @@ Image::Image(Image&& other) noexcept
 
 Image& Image::operator=(Image&& other) noexcept
 {
-    std::swap(owner, other.owner);
-    std::swap(description, other.description);
-    std::swap(levels, other.levels);
-    std::swap(image_usage, other.image_usage);
-    std::swap(image, other.image);
-    std::swap(memory, other.memory);
-    std::swap(image_view, other.image_view);
+    std::swap(owner_, other.owner_);
+    std::swap(desc_, other.desc_);
+    std::swap(levels_, other.levels_);
+    std::swap(usage_, other.usage_);
+    std::swap(image_, other.image_);
+    std::swap(memory_, other.memory_);
+    std::swap(view_, other.view_);
     return *this;
 }
 
 VkImageSubresourceRange Image::range() const
 {
-    return {.aspectMask = aspect_of(description.format), .levelCount = levels, .layerCount = 1};
+    return {.aspectMask = aspect_of(desc_.format), .levelCount = levels_, .layerCount = 1};
 }
 
 VkImageAspectFlags aspect_of(VkFormat format)

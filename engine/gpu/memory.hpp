@@ -1,6 +1,5 @@
-// Buffers and images with the memory behind them. Each has an allocation of its own: a renderer of a few
-// dozen images stays far below the 4096 allocations every device grants, and an allocator would be one more
-// thing to get wrong.
+// Buffers and images with their memory. Each has its own allocation: a few dozen images stay far below the
+// 4096 allocations that Vulkan guarantees, so no allocator is needed.
 #pragma once
 #include "engine/graph/access.hpp"
 #include "engine/graph/graph.hpp"
@@ -16,9 +15,9 @@ class Device;
 
 enum class HostAccess : std::uint8_t
 {
-    None,  // on the device
+    None,  // device-local
     Write, // written by the CPU, coherent
-    Read,  // read by the CPU, cached where the device can; call invalidate() before reading
+    Read,  // read by the CPU, cached if supported; call invalidate() before reading
 };
 
 class Buffer
@@ -31,20 +30,20 @@ class Buffer
     Buffer(Buffer&& other) noexcept;
     Buffer& operator=(Buffer&& other) noexcept;
 
-    VkBuffer handle() const { return buffer; }
-    VkDeviceSize size() const { return bytes; }
-    /// The whole of it. Empty when the host has no access.
-    std::span<std::byte> mapped() const { return {static_cast<std::byte*>(pointer), pointer ? bytes : 0}; }
-    /// Makes what the device wrote, and made available to the host, visible to the CPU.
+    VkBuffer handle() const { return buffer_; }
+    VkDeviceSize size() const { return bytes_; }
+    /// The whole buffer. Empty with HostAccess::None.
+    std::span<std::byte> mapped() const { return {static_cast<std::byte*>(pointer_), pointer_ ? bytes_ : 0}; }
+    /// Makes the device's writes visible to the CPU. The device must have made them available to the host.
     void invalidate() const;
 
   private:
-    const Device* owner = nullptr;
-    VkBuffer buffer = VK_NULL_HANDLE;
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    std::size_t bytes = 0;
-    void* pointer = nullptr;
-    bool coherent = true;
+    const Device* owner_ = nullptr;
+    VkBuffer buffer_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    std::size_t bytes_ = 0;
+    void* pointer_ = nullptr;
+    bool coherent_ = true;
 };
 
 class Image
@@ -57,25 +56,25 @@ class Image
     Image(Image&& other) noexcept;
     Image& operator=(Image&& other) noexcept;
 
-    VkImage handle() const { return image; }
-    VkImageView view() const { return image_view; }
-    const graph::ImageDesc& desc() const { return description; }
-    VkImageUsageFlags usage() const { return image_usage; }
-    VkImageSubresourceRange range() const; // all of it
+    VkImage handle() const { return image_; }
+    VkImageView view() const { return view_; }
+    const graph::ImageDesc& desc() const { return desc_; }
+    VkImageUsageFlags usage() const { return usage_; }
+    VkImageSubresourceRange range() const; // all mip levels
 
   private:
-    const Device* owner = nullptr;
-    graph::ImageDesc description;
-    std::uint32_t levels = 1;
-    VkImageUsageFlags image_usage = 0;
-    VkImage image = VK_NULL_HANDLE;
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    VkImageView image_view = VK_NULL_HANDLE;
+    const Device* owner_ = nullptr;
+    graph::ImageDesc desc_;
+    std::uint32_t levels_ = 1;
+    VkImageUsageFlags usage_ = 0;
+    VkImage image_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    VkImageView view_ = VK_NULL_HANDLE;
 };
 
 VkImageAspectFlags aspect_of(VkFormat format);
 
-/// Sends bytes to a new buffer on the device and waits.
+/// Copies bytes to a new device-local buffer and waits.
 Buffer upload_buffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
                      const std::string& name);
 

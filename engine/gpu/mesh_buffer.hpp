@@ -13,11 +13,11 @@ namespace gpu {
 class MeshBuffer : public graph::Mesh
 {
   public:
-    /// `vertices`: whole vertices of `layout`, one after the other. Neither list may be empty.
+    /// `vertices`: packed vertices of `layout`. Neither list may be empty.
     MeshBuffer(const Device& device, const graph::VertexLayout& layout, std::span<const std::byte> vertices,
                std::span<const std::uint32_t> indices, const std::string& name);
-    /// Other triangles of the same vertices, which are shared. The indices are written where the CPU can
-    /// reach them, so that nothing waits for the frames in flight.
+    /// Shares the vertices of another mesh. The new indices are in host-visible memory, so that no upload has
+    /// to wait for the frames in flight.
     MeshBuffer(const Device& device, const MeshBuffer& vertices_of, std::span<const std::uint32_t> indices,
                const std::string& name);
 

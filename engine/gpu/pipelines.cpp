@@ -31,7 +31,7 @@ void add_constants(PipelineKey& key, const graph::ShaderGroup& group, const grap
             key.constants.emplace_back(constant.name, bit_pattern(*value));
 }
 
-/// One shader stage with its specialisation constants; lives until the pipeline is made.
+/// One shader stage with its specialisation constants, needed until the pipeline is created.
 struct Stage
 {
     Stage(VkDevice device, const graph::Shader& shader, const PipelineKey& key)
@@ -59,7 +59,7 @@ struct Stage
     VkPipelineShaderStageCreateInfo info{};
 };
 
-/// Only the attributes the shader reads.
+/// The attributes that the shader reads.
 std::vector<VkVertexInputAttributeDescription> attributes(const graph::ShaderInterface& vertex_shader,
                                                           const graph::VertexLayout& vertices)
 {
@@ -77,27 +77,28 @@ std::vector<VkVertexInputAttributeDescription> attributes(const graph::ShaderInt
 
 } // namespace
 
-Pipelines::Pipelines(const Device& used, const graph::ShaderLibrary& shaders) : device(used), library(shaders)
+Pipelines::Pipelines(const Device& device, const graph::ShaderLibrary& library)
+    : device_(device), library_(library)
 {
     make_samplers();
 }
 
 Pipelines::~Pipelines()
 {
-    for (const auto& [key, pipeline] : pipelines)
-        vkDestroyPipeline(device.handle(), pipeline.handle, nullptr);
-    for (const auto& [name, layout] : layouts) {
-        vkDestroyPipelineLayout(device.handle(), layout.pipeline, nullptr);
-        vkDestroyDescriptorSetLayout(device.handle(), layout.set, nullptr);
+    for (const auto& [key, pipeline] : pipelines_)
+        vkDestroyPipeline(device_.handle(), pipeline.handle, nullptr);
+    for (const auto& [name, layout] : layouts_) {
+        vkDestroyPipelineLayout(device_.handle(), layout.pipeline, nullptr);
+        vkDestroyDescriptorSetLayout(device_.handle(), layout.set, nullptr);
     }
-    for (const VkSampler sampler : samplers)
-        vkDestroySampler(device.handle(), sampler, nullptr);
+    for (const VkSampler sampler : samplers_)
+        vkDestroySampler(device_.handle(), sampler, nullptr);
 }
 
 const Pipeline& Pipelines::get(const graph::ComputePass& pass)
 {
     PipelineKey key{.shader = pass.shader, .constants = {}, .vertices = nullptr, .colors = {}};
-    add_constants(key, library.group(pass.shader), graph::BindingScope(pass));
+    add_constants(key, library_.group(pass.shader), graph::BindingScope(pass));
     return find_or_make(key);
 }
 
@@ -112,7 +113,7 @@ const Pipeline& Pipelines::get(const graph::Draw& draw, const graph::RasterPass&
                     .blend = draw.blend,
                     .depth_test = pass.depth_image.valid() && draw.depth_test,
                     .depth_write = pass.depth_image.valid() && draw.depth_write};
-    add_constants(key, library.group(draw.shader), graph::BindingScope(draw, pass));
+    add_constants(key, library_.group(draw.shader), graph::BindingScope(draw, pass));
     for (const graph::RasterPass::ColorTarget& target : pass.colors) {
         key.colors.push_back(graph.images[target.image.index].desc.format);
         key.samples = graph.images[target.image.index].desc.samples;
@@ -126,21 +127,21 @@ const Pipeline& Pipelines::get(const graph::Draw& draw, const graph::RasterPass&
 
 const Pipeline& Pipelines::find_or_make(const PipelineKey& key)
 {
-    if (const auto known = pipelines.find(key); known != pipelines.end())
+    if (const auto known = pipelines_.find(key); known != pipelines_.end())
         return known->second;
-    const graph::ShaderGroup& group = library.group(key.shader);
+    const graph::ShaderGroup& group = library_.group(key.shader);
     const Layout& used = layout(group);
     const bool compute = group.stages.front()->interface.stage == VK_SHADER_STAGE_COMPUTE_BIT;
     const VkPipeline made =
         compute ? make_compute(key, group, used.pipeline) : make_raster(key, group, used.pipeline);
-    device.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(made), key.shader);
-    return pipelines.emplace(key, Pipeline{made, used.pipeline, used.set, &group}).first->second;
+    device_.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(made), key.shader);
+    return pipelines_.emplace(key, Pipeline{made, used.pipeline, used.set, &group}).first->second;
 }
 
 const Pipelines::Layout& Pipelines::layout(const graph::ShaderGroup& group)
 {
-    const auto [place, fresh] = layouts.try_emplace(group.name);
-    Layout& made = place->second; // the destructor finds it here, whatever happens below
+    const auto [place, fresh] = layouts_.try_emplace(group.name);
+    Layout& made = place->second; // in the map, so that the destructor frees it after an exception
     if (made.pipeline)
         return made;
     std::vector<VkDescriptorSetLayoutBinding> bindings;
@@ -154,12 +155,12 @@ const Pipelines::Layout& Pipelines::layout(const graph::ShaderGroup& group)
         .bindingCount = static_cast<std::uint32_t>(bindings.size()),
         .pBindings = bindings.data()};
     if (!made.set)
-        check(vkCreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &made.set),
+        check(vkCreateDescriptorSetLayout(device_.handle(), &set_info, nullptr, &made.set),
               "create a set layout");
     const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                           .setLayoutCount = 1,
                                           .pSetLayouts = &made.set};
-    check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &made.pipeline),
+    check(vkCreatePipelineLayout(device_.handle(), &info, nullptr, &made.pipeline),
           "create a pipeline layout");
     return made;
 }
@@ -167,11 +168,11 @@ const Pipelines::Layout& Pipelines::layout(const graph::ShaderGroup& group)
 VkPipeline Pipelines::make_compute(const PipelineKey& key, const graph::ShaderGroup& group,
                                    VkPipelineLayout layout) const
 {
-    const Stage stage(device.handle(), *group.stages.front(), key);
+    const Stage stage(device_.handle(), *group.stages.front(), key);
     const VkComputePipelineCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, .stage = stage.info, .layout = layout};
     VkPipeline made = VK_NULL_HANDLE;
-    check(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &made),
+    check(vkCreateComputePipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &made),
           fmt::format("compile {}", key.shader));
     return made;
 }
@@ -179,12 +180,12 @@ VkPipeline Pipelines::make_compute(const PipelineKey& key, const graph::ShaderGr
 VkPipeline Pipelines::make_raster(const PipelineKey& key, const graph::ShaderGroup& group,
                                   VkPipelineLayout layout) const
 {
-    const Stage vertex(device.handle(), *group.stages[0], key),
-        fragment(device.handle(), *group.stages[1], key);
+    const Stage vertex(device_.handle(), *group.stages[0], key),
+        fragment(device_.handle(), *group.stages[1], key);
     const std::array stages{vertex.info, fragment.info};
     const graph::VertexLayout vertices = key.vertices ? *key.vertices : graph::VertexLayout{};
     const auto inputs = attributes(group.stages[0]->interface, vertices);
-    return make_raster_pipeline(device.handle(),
+    return make_raster_pipeline(device_.handle(),
                                 {.stages = stages,
                                  .vertex_stride = vertices.stride,
                                  .attributes = inputs,
@@ -227,8 +228,8 @@ void Pipelines::make_samplers()
                                        .addressModeV = kind.address,
                                        .addressModeW = kind.address,
                                        .maxLod = kind.max_lod};
-        check(vkCreateSampler(device.handle(), &info, nullptr,
-                              &samplers[static_cast<std::size_t>(kind.sampler)]),
+        check(vkCreateSampler(device_.handle(), &info, nullptr,
+                              &samplers_[static_cast<std::size_t>(kind.sampler)]),
               "create a sampler");
     }
 }

@@ -1,4 +1,4 @@
-// Pipelines and samplers, made when first needed and kept.
+// Cache of pipelines, created on first use, and the samplers.
 #pragma once
 #include "engine/graph/binding_check.hpp"
 #include "engine/graph/graph.hpp"
@@ -15,11 +15,11 @@ namespace gpu {
 
 class Device;
 
-/// Everything a pipeline is compiled for.
+/// All state that a pipeline is compiled for.
 struct PipelineKey
 {
     std::string shader;                                           // name of the shader group
-    std::vector<std::pair<std::string, std::uint32_t>> constants; // by name, as bit patterns
+    std::vector<std::pair<std::string, std::uint32_t>> constants; // name and bit pattern
     const graph::VertexLayout* vertices = nullptr;                // null: the draw has no mesh
     std::vector<VkFormat> colors;
     VkFormat depth = VK_FORMAT_UNDEFINED;
@@ -46,7 +46,7 @@ class Pipelines
 
     const Pipeline& get(const graph::ComputePass& pass);
     const Pipeline& get(const graph::Draw& draw, const graph::RasterPass& pass, const graph::Graph& graph);
-    VkSampler sampler(graph::Sampler kind) const { return samplers[static_cast<std::size_t>(kind)]; }
+    VkSampler sampler(graph::Sampler kind) const { return samplers_[static_cast<std::size_t>(kind)]; }
 
   private:
     struct Layout
@@ -62,11 +62,11 @@ class Pipelines
                            VkPipelineLayout layout) const;
     void make_samplers();
 
-    const Device& device;
-    const graph::ShaderLibrary& library;
-    std::array<VkSampler, 4> samplers{};
-    std::map<std::string, Layout> layouts; // by shader group
-    std::map<PipelineKey, Pipeline> pipelines;
+    const Device& device_;
+    const graph::ShaderLibrary& library_;
+    std::array<VkSampler, 4> samplers_{};
+    std::map<std::string, Layout> layouts_; // by shader group
+    std::map<PipelineKey, Pipeline> pipelines_;
 };
 
 } // namespace gpu

@@ -25,13 +25,13 @@ VkPipelineColorBlendAttachmentState blend_state(bool blend)
 
 } // namespace
 
-ShaderModule::ShaderModule(VkDevice used, std::span<const std::uint32_t> words, const std::string& name)
-    : device(used)
+ShaderModule::ShaderModule(VkDevice device, std::span<const std::uint32_t> words, const std::string& name)
+    : device_(device)
 {
     const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                         .codeSize = words.size_bytes(),
                                         .pCode = words.data()};
-    check(vkCreateShaderModule(device, &info, nullptr, &module), fmt::format("load shader {}", name));
+    check(vkCreateShaderModule(device_, &info, nullptr, &module_), fmt::format("load shader {}", name));
 }
 
 VkPipelineShaderStageCreateInfo ShaderModule::stage(VkShaderStageFlagBits which,
@@ -39,7 +39,7 @@ VkPipelineShaderStageCreateInfo ShaderModule::stage(VkShaderStageFlagBits which,
 {
     return {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
             .stage = which,
-            .module = module,
+            .module = module_,
             .pName = "main",
             .pSpecializationInfo = specialisation};
 }

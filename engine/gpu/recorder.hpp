@@ -1,4 +1,4 @@
-// Turns one planned pass into commands: barriers, descriptor sets, attachments, draws.
+// Records the commands of planned passes: barriers, descriptor sets, attachments, draws.
 #pragma once
 #include "engine/gpu/frame_slot.hpp"
 #include "engine/gpu/pipelines.hpp"
@@ -10,10 +10,10 @@
 
 namespace gpu {
 
-/// What stands behind an ImageId in this frame. Null for images that no pass of this frame touches.
+/// The Vulkan image of an ImageId in this frame. Null for images that no pass of this frame uses.
 struct BoundImage
 {
-    VkImage image = VK_NULL_HANDLE; // null for external images: they are only ever sampled
+    VkImage image = VK_NULL_HANDLE; // null for external images, which are only sampled
     VkImageView view = VK_NULL_HANDLE;
 };
 
@@ -26,7 +26,7 @@ class Recorder
     void barriers(std::span<const graph::ImageBarrier> barriers) const;
     void record(const graph::ComputePass& pass);
     void record(const graph::RasterPass& pass, const graph::PassPlan& planned);
-    /// Copies images into `to`, one behind the other from `offsets` on, and makes them ready for the host.
+    /// Copies each image to its offset (bytes) in `to` and makes the data available to the host.
     void copy_out(std::span<const graph::Graph::Readback> readbacks, const Buffer& to,
                   std::span<const VkDeviceSize> offsets) const;
 
@@ -38,12 +38,12 @@ class Recorder
     VkDescriptorBufferInfo upload(const graph::ShaderGroup::Binding& binding,
                                   const graph::Bindings::Data& data);
 
-    const Device& device;
-    const graph::Graph& graph;
-    Pipelines& pipelines;
-    FrameSlot& slot;
-    VkCommandBuffer commands;
-    std::span<const BoundImage> images; // by ImageId
+    const Device& device_;
+    const graph::Graph& graph_;
+    Pipelines& pipelines_;
+    FrameSlot& slot_;
+    VkCommandBuffer commands_;
+    std::span<const BoundImage> images_; // by ImageId
 };
 
 } // namespace gpu

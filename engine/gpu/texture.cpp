@@ -23,7 +23,7 @@ VkFormat texture_format(const cv::Mat& picture, Encoding encoding)
         return picture.type() == CV_8UC4 ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_UNDEFINED;
     for (const graph::Format& format : graph::formats())
         if (format.cv_type == picture.type() && !graph::is_depth(format.format))
-            return format.format; // the table has the linear format before the sRGB one
+            return format.format; // the table lists the linear format before the sRGB one
     return VK_FORMAT_UNDEFINED;
 }
 
@@ -37,7 +37,7 @@ float linear_to_srgb(float linear)
     return linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
-/// The values of 8-bit sRGB codes in linear light, scaled to 0..255.
+/// Linear light, 0..255, by 8-bit sRGB code.
 const std::array<float, 256>& linear_of_code()
 {
     static const std::array<float, 256> table = [] {
@@ -49,7 +49,7 @@ const std::array<float, 256>& linear_of_code()
     return table;
 }
 
-/// 8-bit and half pictures as float, sRGB colour as linear light; values of 8-bit pictures stay 0..255.
+/// Converts to float, sRGB colour to linear light; values of 8-bit pictures keep the range 0..255.
 cv::Mat to_linear_float(const cv::Mat& picture, Encoding encoding)
 {
     cv::Mat linear;
@@ -64,8 +64,8 @@ cv::Mat to_linear_float(const cv::Mat& picture, Encoding encoding)
     return linear;
 }
 
-/// The first halving of an 8-bit picture of even size, straight from its bytes: a large picture as floats
-/// takes longer to write than all the levels below it.
+/// First mip level of an 8-bit picture of even size, directly from its bytes: writing a large picture as
+/// floats would take longer than computing all levels below it.
 cv::Mat half_from_bytes(const cv::Mat& picture, Encoding encoding)
 {
     const int channels = picture.channels();
@@ -130,7 +130,7 @@ void copy_levels(VkCommandBuffer commands, const Buffer& staging, const Image& i
     }
     vkCmdCopyBufferToImage(commands, staging.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                            static_cast<std::uint32_t>(regions.size()), regions.data());
-    move_to(graph::Usage::SampledInCompute); // from here on every kind of shader may read, and nothing ever
+    move_to(graph::Usage::SampledInCompute); // from here on all shader stages may read, and nothing
                                              // writes again
     move_to(graph::Usage::SampledInRaster);
 }
@@ -139,7 +139,7 @@ void copy_levels(VkCommandBuffer commands, const Buffer& staging, const Image& i
 
 Texture::Texture(const Device& device, const cv::Mat& picture, Encoding encoding, bool mips,
                  const std::string& name)
-    : content_id(new_content_id())
+    : content_id_(new_content_id())
 {
     const VkFormat format = texture_format(picture, encoding);
     if (picture.empty() || format == VK_FORMAT_UNDEFINED)
@@ -148,8 +148,8 @@ Texture::Texture(const Device& device, const cv::Mat& picture, Encoding encoding
     const std::vector<cv::Mat> levels = mips ? mip_chain(picture, encoding) : std::vector<cv::Mat>{picture};
     const graph::ImageDesc desc{static_cast<std::uint32_t>(picture.cols),
                                 static_cast<std::uint32_t>(picture.rows), format};
-    image = Image(device, desc, static_cast<std::uint32_t>(levels.size()),
-                  VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, name);
+    image_ = Image(device, desc, static_cast<std::uint32_t>(levels.size()),
+                   VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, name);
 
     // Each level starts on a multiple of 16, which suits every texel size.
     std::size_t size = 0;
@@ -164,7 +164,7 @@ Texture::Texture(const Device& device, const cv::Mat& picture, Encoding encoding
             std::memcpy(to + static_cast<std::size_t>(y) * row, level.ptr(y), row);
         to += (level.total() * level.elemSize() + 15) / 16 * 16;
     }
-    device.run_once([&](VkCommandBuffer commands) { copy_levels(commands, staging, image, levels); });
+    device.run_once([&](VkCommandBuffer commands) { copy_levels(commands, staging, image_, levels); });
 }
 
 std::vector<cv::Mat> mip_chain(const cv::Mat& picture, Encoding encoding)

@@ -17,7 +17,7 @@ constexpr std::array<AccessRow, 8> table{{
      VK_IMAGE_USAGE_SAMPLED_BIT},
     {Usage::Stored, "stored", VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
      VK_IMAGE_LAYOUT_GENERAL, true, VK_IMAGE_USAGE_STORAGE_BIT},
-    // Blending and the clear of a load op read too.
+    // Blending and load operations also read.
     {Usage::Color, "colour target", VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
      VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
      VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, true, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT},
@@ -38,8 +38,8 @@ constexpr VkAccessFlags2 all_writes =
     VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
 
-/// Waits for whatever touched the image last. Readers need
-/// no flush: a write they saw has been flushed for them.
+/// Waits for the last access to the image. After a read no
+/// flush is needed: the write was flushed before that read.
 Barrier after_last_access(const AccessState& state, const AccessRow& next)
 {
     return {.src_stages = state.read_stages ? state.read_stages : state.write_stages,
@@ -80,13 +80,13 @@ std::optional<Barrier> advance(AccessState& state, Usage usage)
     const AccessRow& next = access_row(usage);
     if (next.writes) {
         Barrier barrier = after_last_access(state, next);
-        barrier.old_layout = VK_IMAGE_LAYOUT_UNDEFINED; // every writer replaces the whole contents
+        barrier.old_layout = VK_IMAGE_LAYOUT_UNDEFINED; // a writer replaces the whole contents
         state = {
             .layout = next.layout, .write_stages = next.stages, .write_access = next.access & all_writes};
         return barrier;
     }
     if (state.layout != next.layout) {
-        // A transition is itself a write; the barrier that does it has flushed everything before it.
+        // A layout transition is a write; its barrier flushes all earlier writes.
         const Barrier barrier = after_last_access(state, next);
         state = {.layout = next.layout,
                  .write_stages = next.stages,

@@ -1,5 +1,5 @@
-// How the GPU touches an image, as one table: usage -> stages, access, layout. A barrier is an old row -> a
-// new row. Nothing here calls Vulkan; tests/access_test.cpp reads the table as data.
+// Table of image usages: usage -> pipeline stages, access flags, layout. A barrier goes from one row to
+// another. Nothing here calls Vulkan; tests/engine/access_test.cpp reads the table as data.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -10,13 +10,13 @@ namespace graph {
 enum class Usage : std::uint8_t
 {
     SampledInCompute,
-    SampledInRaster, // by the vertex or the fragment shader
-    Stored,          // storage image of a compute shader, written whole
-    Color,           // colour attachment or the target of a resolve
+    SampledInRaster, // by the vertex or fragment shader
+    Stored,          // storage image of a compute shader, every texel written
+    Color,           // colour attachment or resolve target
     Depth,
-    CopySource,      // read back, or copied or blitted to a window
+    CopySource,      // for a readback, or a copy or blit to a window
     CopyDestination, // uploads
-    HostRead,        // buffers only: the end of a read-back
+    HostRead,        // buffers only: the host reads a readback
 };
 
 struct AccessRow
@@ -26,20 +26,20 @@ struct AccessRow
     VkPipelineStageFlags2 stages;
     VkAccessFlags2 access;
     VkImageLayout layout;
-    bool writes;             // and then replaces all of the image's contents
-    VkImageUsageFlags image; // what the image must have been created for
+    bool writes;             // true: the access replaces the whole contents
+    VkImageUsageFlags image; // required at the image's creation
 };
 
 const AccessRow& access_row(Usage usage);
 
-/// What has happened to an image so far, in this frame or earlier ones on the same queue.
+/// Previous accesses to an image, in this frame and earlier ones on the same queue.
 struct AccessState
 {
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     VkPipelineStageFlags2 write_stages = 0;   // of the last write or layout transition
-    VkAccessFlags2 write_access = 0;          // of the last write, as long as it has not been flushed
-    VkPipelineStageFlags2 read_stages = 0;    // all that read since then
-    VkPipelineStageFlags2 visible_stages = 0; // to which the last write has been made visible
+    VkAccessFlags2 write_access = 0;          // of the last write, 0 once it has been flushed
+    VkPipelineStageFlags2 read_stages = 0;    // of all reads since the last write
+    VkPipelineStageFlags2 visible_stages = 0; // that the last write is visible to
     VkAccessFlags2 visible_access = 0;
     bool operator==(const AccessState&) const = default;
 };
@@ -55,11 +55,11 @@ struct Barrier
     bool operator==(const Barrier&) const = default;
 };
 
-/// As Vulkan takes it.
+/// The same barrier as a Vulkan struct.
 VkImageMemoryBarrier2 vulkan_barrier(const Barrier& barrier, VkImage image,
                                      const VkImageSubresourceRange& range);
 
-/// Moves `state` on by one access and returns the barrier that must come before it, if any.
+/// Updates `state` for one more access and returns the barrier needed before that access, if any.
 std::optional<Barrier> advance(AccessState& state, Usage usage);
 
 } // namespace graph

@@ -11,10 +11,9 @@ namespace graph {
 
 namespace {
 
-// Every device takes uniform blocks of this size (maxUniformBufferRange).
+// Vulkan's guaranteed minimum of maxUniformBufferRange.
 constexpr std::uint32_t max_uniform_bytes = 16384;
 
-/// Every name that `bindings` gives a value.
 std::set<std::string> given_names(const Bindings& bindings)
 {
     std::set<std::string> names;
@@ -29,7 +28,7 @@ std::set<std::string> given_names(const Bindings& bindings)
     return names;
 }
 
-bool knows(const ShaderGroup& group, std::string_view name)
+bool has_name(const ShaderGroup& group, std::string_view name)
 {
     return group.find_binding(name) || group.find_constant(name);
 }
@@ -37,43 +36,43 @@ bool knows(const ShaderGroup& group, std::string_view name)
 class Checker
 {
   public:
-    Checker(const Graph& checked, const ShaderLibrary& shaders) : graph(checked), library(shaders) {}
+    Checker(const Graph& graph, const ShaderLibrary& library) : graph_(graph), library_(library) {}
 
     std::vector<std::string> run()
     {
-        for (const Pass& pass : graph.passes) {
-            pass_name = name_of(pass);
+        for (const Pass& pass : graph_.passes) {
+            pass_name_ = name_of(pass);
             std::visit([&](const auto& p) { check(p); }, pass);
         }
-        return std::move(lines);
+        return std::move(lines_);
     }
 
   private:
     template <typename... Args>
     void complain(fmt::format_string<Args...> format, Args&&... args)
     {
-        lines.push_back(fmt::format("pass {}: ", pass_name) +
-                        fmt::format(format, std::forward<Args>(args)...));
+        lines_.push_back(fmt::format("pass {}: ", pass_name_) +
+                         fmt::format(format, std::forward<Args>(args)...));
     }
 
     void check(const ComputePass& pass)
     {
-        const ShaderGroup& group = library.group(pass.shader);
+        const ShaderGroup& group = library_.group(pass.shader);
         if (!pass.shader.ends_with(".comp"))
             complain("{} is not a compute shader", pass.shader);
         else if (usable(group))
             check_values(group, BindingScope(pass));
         if (group.problems.empty())
             for (const std::string& name : given_names(pass))
-                if (!knows(group, name))
-                    complain("shader {} knows no {}", pass.shader, name);
+                if (!has_name(group, name))
+                    complain("shader {} has no binding or constant {}", pass.shader, name);
     }
 
     void check(const RasterPass& pass)
     {
         std::set<std::string> unused = given_names(pass);
         for (const Draw& draw : pass.draws) {
-            const ShaderGroup& group = library.group(draw.shader);
+            const ShaderGroup& group = library_.group(draw.shader);
             if (draw.shader.ends_with(".comp"))
                 complain("{} is a compute shader", draw.shader);
             else if (usable(group)) {
@@ -84,12 +83,12 @@ class Checker
                              pass.colors.size());
             }
             for (const std::string& name : given_names(draw))
-                if (group.problems.empty() && !knows(group, name))
-                    complain("shader {} knows no {}", draw.shader, name);
-            std::erase_if(unused, [&](const std::string& name) { return knows(group, name); });
+                if (group.problems.empty() && !has_name(group, name))
+                    complain("shader {} has no binding or constant {}", draw.shader, name);
+            std::erase_if(unused, [&](const std::string& name) { return has_name(group, name); });
         }
         for (const std::string& name : unused)
-            complain("no shader of its draws knows {}", name);
+            complain("no shader of its draws has a binding or constant {}", name);
     }
 
     bool usable(const ShaderGroup& group)
@@ -125,10 +124,10 @@ class Checker
         case VK_DESCRIPTOR_TYPE_STORAGE_IMAGE:
             if (const auto* stored = scope.stored(binding.name); !stored)
                 missing("image to store to");
-            else if (stored->image.index < graph.images.size() &&
-                     graph.images[stored->image.index].desc.format != binding.format)
+            else if (stored->image.index < graph_.images.size() &&
+                     graph_.images[stored->image.index].desc.format != binding.format)
                 complain("shader {} stores {} to {}, which has another format", group.name,
-                         find_format(binding.format)->name, graph.images[stored->image.index].name);
+                         find_format(binding.format)->name, graph_.images[stored->image.index].name);
             return;
         default:
             check_data(group, binding, scope.data(binding.name));
@@ -164,7 +163,7 @@ class Checker
         for (const ShaderInput& input : inputs) {
             const VertexAttribute* given = draw.mesh ? draw.mesh->layout().find(input.name) : nullptr;
             if (draw.mesh && (!given || given->components < input.components))
-                complain("shader {} wants vertex input {} with {} components, which its mesh has not",
+                complain("shader {} wants vertex input {} with {} components, which its mesh lacks",
                          group.name, input.name, input.components);
         }
         if (!inputs.empty() && !draw.mesh)
@@ -175,39 +174,39 @@ class Checker
                      draw.first_index, draw.mesh->index_count());
     }
 
-    const Graph& graph;
-    const ShaderLibrary& library;
-    std::string pass_name;
-    std::vector<std::string> lines;
+    const Graph& graph_;
+    const ShaderLibrary& library_;
+    std::string pass_name_;
+    std::vector<std::string> lines_;
 };
 
 } // namespace
 
 const Bindings::Sampled* BindingScope::sampled(std::string_view name) const
 {
-    const Bindings::Sampled* found = find_named(own.sampled, name);
-    return found || !outer ? found : find_named(outer->sampled, name);
+    const Bindings::Sampled* found = find_named(own_.sampled, name);
+    return found || !outer_ ? found : find_named(outer_->sampled, name);
 }
 
 const Bindings::Stored* BindingScope::stored(std::string_view name) const
 {
-    return find_named(own.stored, name);
+    return find_named(own_.stored, name);
 }
 
 const Bindings::Data* BindingScope::data(std::string_view name) const
 {
-    const Bindings::Data* found = find_named(own.data, name);
-    return found || !outer ? found : find_named(outer->data, name);
+    const Bindings::Data* found = find_named(own_.data, name);
+    return found || !outer_ ? found : find_named(outer_->data, name);
 }
 
 const Constant* BindingScope::constant(std::string_view name) const
 {
-    if (const auto found = own.constants.find(name); found != own.constants.end())
+    if (const auto found = own_.constants.find(name); found != own_.constants.end())
         return &found->second;
-    if (!outer)
+    if (!outer_)
         return nullptr;
-    const auto found = outer->constants.find(name);
-    return found == outer->constants.end() ? nullptr : &found->second;
+    const auto found = outer_->constants.find(name);
+    return found == outer_->constants.end() ? nullptr : &found->second;
 }
 
 std::vector<std::string> check_bindings(const Graph& graph, const ShaderLibrary& library)

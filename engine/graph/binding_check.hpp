@@ -1,5 +1,5 @@
-// Whether every pass gives its shaders what they ask for, and
-// nothing else. Needs the shaders' reflection, not a device.
+// Checks that every pass gives its shaders exactly the bindings
+// they declare. Uses the shaders' reflection; needs no device.
 #pragma once
 #include "engine/graph/graph.hpp"
 #include "engine/graph/shader_library.hpp"
@@ -10,12 +10,12 @@
 
 namespace graph {
 
-/// The values a draw or dispatch sees: its own first, then its pass's.
+/// Looks a binding up in the draw or dispatch first, then in its pass.
 class BindingScope
 {
   public:
-    explicit BindingScope(const ComputePass& pass) : own(pass), outer(nullptr) {}
-    BindingScope(const Draw& draw, const RasterPass& pass) : own(draw), outer(&pass) {}
+    explicit BindingScope(const ComputePass& pass) : own_(pass), outer_(nullptr) {}
+    BindingScope(const Draw& draw, const RasterPass& pass) : own_(draw), outer_(&pass) {}
 
     const Bindings::Sampled* sampled(std::string_view name) const;
     const Bindings::Stored* stored(std::string_view name) const;
@@ -23,11 +23,11 @@ class BindingScope
     const Constant* constant(std::string_view name) const;
 
   private:
-    const Bindings& own;
-    const Bindings* outer;
+    const Bindings& own_;
+    const Bindings* outer_;
 };
 
-/// One line for every mistake: "pass forward: shader forward is given no value for albedo".
+/// One line for each mistake: "pass forward: shader forward is given no image for albedo".
 std::vector<std::string> check_bindings(const Graph& graph, const ShaderLibrary& library);
 
 } // namespace graph

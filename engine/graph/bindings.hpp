@@ -1,4 +1,4 @@
-// What a pass or a draw gives to its shaders, by the names the shaders use.
+// The images, data and constants that a pass or a draw binds, by their names in the shaders.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -30,27 +30,27 @@ enum class Sampler : std::uint8_t
 
 using Constant = std::variant<bool, std::int32_t, std::uint32_t, float>;
 
-/// What a shader is given, by the names its source uses (for a block: its instance name, or the block's own
-/// name when it has no instance name). A name the shader does not know is an error; so is a binding of the
-/// shader that is given no value. Giving a name twice replaces the first value.
+/// Values by the names in the shader's source (for a block: its instance name, or its block name when it has
+/// no instance name). A name that the shader does not declare is an error, and so is a shader binding without
+/// a value. A second value for a name replaces the first.
 class Bindings
 {
   public:
-    /// Samples an image. An array of samplers in the shader
-    /// takes several images; every element must be given.
+    /// Samples an image. For an array of samplers in
+    /// the shader, give one image for every element.
     void sample(std::string_view name, ImageId image, Sampler sampler = Sampler::LinearClamp);
     void sample(std::string_view name, std::span<const ImageId> images,
                 Sampler sampler = Sampler::LinearClamp);
-    void store(std::string_view name, ImageId image); // storage image, written whole (compute only)
-    /// Uniform block in scalar layout: the C++ struct as it stands (shaders/shared/).
+    void store(std::string_view name, ImageId image); // storage image, every texel written (compute only)
+    /// Uniform block in scalar layout, as a C++ struct of shaders/shared/.
     template <typename T>
     void uniform(std::string_view name, const T& value)
     {
         static_assert(std::is_trivially_copyable_v<T>);
         bytes(name, std::as_bytes(std::span(&value, 1)), false);
     }
-    /// Read-only storage buffer holding an array of T in scalar layout; copied. The shader sees an empty
-    /// array as one zeroed element.
+    /// Read-only storage buffer: a copy of an array of T in scalar layout. An empty array becomes one
+    /// element of zeros.
     template <typename T>
     void buffer(std::string_view name, std::span<const T> values)
     {
@@ -62,7 +62,7 @@ class Bindings
     {
         buffer(name, std::span<const std::ranges::range_value_t<Range>>(values));
     }
-    /// Specialisation constant (constant_id) by its name in the shader: bool, int, uint or float.
+    /// Specialisation constant (constant_id) by its name in the shader.
     void constant(std::string_view name, Constant value);
 
     struct Sampled

@@ -1,4 +1,4 @@
-// Looking things up by name in the short lists that declarations and reflections are made of.
+// Linear search by name in the short lists of declarations and reflections.
 #pragma once
 #include <algorithm>
 #include <string_view>

@@ -1,4 +1,4 @@
-// The image formats this renderer uses, as one table.
+// Table of the image formats this renderer uses.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -10,9 +10,9 @@ struct Format
 {
     VkFormat format;
     const char* name;            // "RGBA16F"
-    std::uint32_t bytes;         // of a texel
-    int cv_type;                 // of the cv::Mat that holds it on the CPU
-    VkFormatFeatureFlags needed; // what the device must be able to do with it, optimal tiling
+    std::uint32_t bytes;         // per texel
+    int cv_type;                 // type of the cv::Mat that holds it on the CPU
+    VkFormatFeatureFlags needed; // features the device must support, optimal tiling
 };
 
 std::span<const Format> formats();

@@ -7,9 +7,9 @@ namespace graph {
 
 namespace {
 
-/// Adds `value`, or puts it in the place of the one of the same name.
+/// Adds `value`, or replaces the entry of the same name.
 template <typename Named>
-void put(std::vector<Named>& list, Named value)
+void add_or_replace(std::vector<Named>& list, Named value)
 {
     const auto same =
         std::find_if(list.begin(), list.end(), [&](const Named& other) { return other.name == value.name; });
@@ -28,12 +28,12 @@ void Bindings::sample(std::string_view name, ImageId image, Sampler sampler)
 
 void Bindings::sample(std::string_view name, std::span<const ImageId> images, Sampler sampler)
 {
-    put(sampled, Sampled{std::string(name), {images.begin(), images.end()}, sampler});
+    add_or_replace(sampled, Sampled{std::string(name), {images.begin(), images.end()}, sampler});
 }
 
 void Bindings::store(std::string_view name, ImageId image)
 {
-    put(stored, Stored{std::string(name), image});
+    add_or_replace(stored, Stored{std::string(name), image});
 }
 
 void Bindings::constant(std::string_view name, Constant value)
@@ -43,7 +43,7 @@ void Bindings::constant(std::string_view name, Constant value)
 
 void Bindings::bytes(std::string_view name, std::span<const std::byte> value, bool storage)
 {
-    put(data, Data{std::string(name), {value.begin(), value.end()}, storage});
+    add_or_replace(data, Data{std::string(name), {value.begin(), value.end()}, storage});
 }
 
 void ComputePass::dispatch(std::uint32_t invocations_x, std::uint32_t invocations_y)
@@ -72,20 +72,20 @@ Draw& RasterPass::draw(std::string_view shader)
 
 ImageId Graph::image(std::string_view name, const ImageDesc& desc)
 {
-    images.push_back({name_prefix + std::string(name), desc, {}});
+    images.push_back({name_prefix_ + std::string(name), desc, {}});
     return {static_cast<std::uint32_t>(images.size() - 1)};
 }
 
 ImageId Graph::import(std::string_view name, const ExternalImage& external)
 {
-    images.push_back({name_prefix + std::string(name), external.desc, external});
+    images.push_back({name_prefix_ + std::string(name), external.desc, external});
     return {static_cast<std::uint32_t>(images.size() - 1)};
 }
 
 ComputePass& Graph::compute(std::string_view name, std::string_view shader)
 {
     ComputePass pass;
-    pass.name = name_prefix + std::string(name);
+    pass.name = name_prefix_ + std::string(name);
     pass.shader = shader;
     return std::get<ComputePass>(passes.emplace_back(std::move(pass)));
 }
@@ -93,7 +93,7 @@ ComputePass& Graph::compute(std::string_view name, std::string_view shader)
 RasterPass& Graph::raster(std::string_view name)
 {
     RasterPass pass;
-    pass.name = name_prefix + std::string(name);
+    pass.name = name_prefix_ + std::string(name);
     return std::get<RasterPass>(passes.emplace_back(std::move(pass)));
 }
 

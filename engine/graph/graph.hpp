@@ -1,10 +1,10 @@
 // The render graph as a pass author sees it: declare images and passes for one
 // frame; Executor::run schedules and executes them. Nothing here calls Vulkan;
-// barriers, layouts, labels and timestamps are not the author's business.
+// the executor adds barriers, layouts, labels and timestamps.
 //
-// A pass's key is computed from what it declares (shader, constants, uniforms,
-// buffers, draws), so it cannot be forgotten. A pass whose key and inputs are
-// those of its last run is skipped; one whose outputs nobody needs is culled.
+// The key of a pass is computed from its declaration (shader, constants,
+// uniforms, buffers, draws). A pass is skipped when its key and inputs equal
+// those of its last run, and culled when nothing needs its outputs.
 //
 // Every image has exactly one writer, which writes all of it; passes may be declared in any order.
 #pragma once
@@ -38,8 +38,8 @@ struct ImageDesc
     bool operator==(const ImageDesc&) const = default;
 };
 
-/// An image made outside the graph, always ready to be sampled;
-/// `content` names what is in it and is never used twice.
+/// An image made outside the graph, always in the layout for sampling;
+/// `content` identifies its contents and is unique in the process.
 struct ExternalImage
 {
     ImageDesc desc;
@@ -50,9 +50,9 @@ struct ExternalImage
 class ComputePass : public Bindings
 {
   public:
-    /// Number of invocations wanted; the group count follows from the shader's local size.
+    /// Number of invocations; the group count follows from the shader's local size.
     void dispatch(std::uint32_t invocations_x, std::uint32_t invocations_y);
-    /// Run it each frame even when nothing changed; what samples it follows.
+    /// Runs the pass, and the passes that sample its images, in every frame.
     void every_frame() { always = true; }
 
     std::string name, shader; // shader: file name, "wound_texture.comp"
@@ -65,9 +65,9 @@ class Draw : public Bindings
 {
   public:
     std::string shader;         // stem: "forward" means forward.vert and forward.frag
-    const Mesh* mesh = nullptr; // null: `index_count` vertices out of nothing (full-screen triangle: 3)
-    std::uint32_t first_index = 0, index_count = 0; // with a mesh, index_count 0 means up to its last index
-    bool cull_back_faces = true; // of a mesh; the front is counter-clockwise as seen in the picture
+    const Mesh* mesh = nullptr; // null: `index_count` vertices without attributes (3: full screen)
+    std::uint32_t first_index = 0, index_count = 0; // with a mesh, count 0: up to its last index
+    bool cull_back_faces = true; // meshes only; front faces are counter-clockwise in the picture
     bool blend = false;          // source alpha over
     bool depth_test = true;      // used when the pass has a depth image
     bool depth_write = true;
@@ -77,12 +77,12 @@ class Draw : public Bindings
 class RasterPass : public Bindings
 {
   public:
-    /// Colour target, cleared to `clear` first. With `resolve`,
-    /// `image` is multisampled and is resolved into it.
+    /// Colour target, cleared to `clear` first. With `resolve`, `image`
+    /// must be multisampled; the pass resolves it into `resolve`.
     void color(ImageId image, std::array<float, 4> clear, ImageId resolve = {});
     void depth(ImageId image, float clear = 1.0f); // test: less or equal
     Draw& draw(std::string_view shader);
-    /// The picture itself: run it each frame even when nothing changed.
+    /// Runs the pass in every frame even when nothing changed.
     void every_frame() { always = true; }
 
     struct ColorTarget
@@ -94,7 +94,7 @@ class RasterPass : public Bindings
     std::vector<ColorTarget> colors;
     ImageId depth_image;
     float depth_clear = 1.0f;
-    std::deque<Draw> draws; // references to them stay valid
+    std::deque<Draw> draws; // a deque, so that references stay valid
     bool always = false;
 };
 
@@ -105,27 +105,26 @@ using Pass = std::variant<ComputePass, RasterPass>;
 class Graph
 {
   public:
-    /// An image the graph owns. Its contents last from frame to
-    /// frame under its name, so that its writer can be skipped.
+    /// An image the graph owns. Its contents are kept between frames
+    /// under its name, so that its writer can be skipped.
     ImageId image(std::string_view name, const ImageDesc& desc);
-    /// An image made outside the graph, ready to be sampled. It must outlive the frame.
+    /// An image made outside the graph. It must outlive the frame.
     ImageId import(std::string_view name, const ExternalImage& external);
-    /// Of whatever hands out its ExternalImage: a texture.
+    /// Imports an object that has external(), such as gpu::Texture.
     template <typename Texture>
     requires requires(const Texture& texture) { texture.external(); }
     ImageId import(std::string_view name, const Texture& texture) { return import(name, texture.external()); }
     ComputePass& compute(std::string_view name, std::string_view shader);
     RasterPass& raster(std::string_view name);
-    /// Copies an image to the host at the end of the frame. This is what makes a pass needed: whatever leads
-    /// to no readback and no presentation is culled.
+    /// Copies an image to the host at the end of the frame. A pass is culled unless a readback or a presented
+    /// image depends on it.
     ReadbackId readback(std::string_view name, ImageId image);
-    /// Leaves an image ready to be copied from (to a window,
-    /// for instance) after the frame: Executor::presented().
+    /// Leaves an image in the transfer source layout after the
+    /// frame, for a copy to a window: Executor::presented().
     void present(ImageId image);
-    /// Put before the names of what is declared from now on, so that one recipe can be declared twice.
-    void prefix(std::string_view names) { name_prefix = names; }
-    /// Something the frame reads on the device, a texture or a mesh, lives until the frame is finished,
-    /// even if its owner lets go of it before.
+    /// Prefix of the names of all later images and passes, so that the same passes can be declared twice.
+    void prefix(std::string_view names) { name_prefix_ = names; }
+    /// Keeps a resource that the frame reads (a texture or a mesh) alive until the frame is finished.
     void keep(std::shared_ptr<const void> used) { kept.push_back(std::move(used)); }
 
     struct Image
@@ -146,7 +145,7 @@ class Graph
     std::vector<std::shared_ptr<const void>> kept;
 
   private:
-    std::string name_prefix;
+    std::string name_prefix_;
 };
 
 const std::string& name_of(const Pass& pass);

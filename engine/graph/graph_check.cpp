@@ -13,39 +13,39 @@ namespace graph {
 
 namespace {
 
-/// Collects the lines about one graph.
+/// Collects the mistakes of one graph.
 class Checker
 {
   public:
-    explicit Checker(const Graph& checked) : graph(checked), writers(checked.images.size()) {}
+    explicit Checker(const Graph& graph) : graph_(graph), writers_(graph.images.size()) {}
 
     std::vector<std::string> run()
     {
         check_images();
         check_names();
-        for (const Pass& pass : graph.passes)
+        for (const Pass& pass : graph_.passes)
             for (const ImageAccess& access : accesses(pass))
                 if (access_row(access.usage).writes && known(access.image))
-                    writers[access.image.index].push_back(name_of(pass));
-        for (const Pass& pass : graph.passes) {
+                    writers_[access.image.index].push_back(name_of(pass));
+        for (const Pass& pass : graph_.passes) {
             check_accesses(pass);
             std::visit([&](const auto& p) { check_pass(p); }, pass);
         }
         check_writers();
         check_outputs();
         check_cycles();
-        return std::move(lines);
+        return std::move(lines_);
     }
 
   private:
     template <typename... Args>
     void complain(fmt::format_string<Args...> format, Args&&... args)
     {
-        lines.push_back(fmt::format(format, std::forward<Args>(args)...));
+        lines_.push_back(fmt::format(format, std::forward<Args>(args)...));
     }
 
-    bool known(ImageId id) const { return id.index < graph.images.size(); }
-    const Graph::Image& image(ImageId id) const { return graph.images[id.index]; }
+    bool known(ImageId id) const { return id.index < graph_.images.size(); }
+    const Graph::Image& image(ImageId id) const { return graph_.images[id.index]; }
     std::string image_name(ImageId id) const
     {
         return known(id) ? image(id).name : "an image that is not declared";
@@ -54,7 +54,7 @@ class Checker
     void check_images()
     {
         std::set<std::string> names;
-        for (const Graph::Image& image : graph.images) {
+        for (const Graph::Image& image : graph_.images) {
             if (image.name.empty())
                 complain("image without a name");
             if (!names.insert(image.name).second)
@@ -62,17 +62,16 @@ class Checker
             if (image.desc.width == 0 || image.desc.height == 0)
                 complain("image {}: its size is {} x {}", image.name, image.desc.width, image.desc.height);
             if (!find_format(image.desc.format))
-                complain("image {}: its format is not one of engine/formats.cpp", image.name);
+                complain("image {}: its format is not one of engine/graph/formats.cpp", image.name);
             if (image.desc.samples != 1 && image.desc.samples != 4)
-                complain("image {}: {} samples, and only 1 and 4 are possible", image.name,
-                         image.desc.samples);
+                complain("image {}: {} samples; only 1 and 4 are possible", image.name, image.desc.samples);
         }
     }
 
     void check_names()
     {
         std::set<std::string> names;
-        for (const Pass& pass : graph.passes) {
+        for (const Pass& pass : graph_.passes) {
             if (name_of(pass).empty())
                 complain("pass without a name");
             if (!names.insert(name_of(pass)).second)
@@ -93,8 +92,8 @@ class Checker
             const bool depth = is_depth(used.desc.format);
             if (!access_row(usage).writes) {
                 read.insert(id.index);
-                if (!used.external && writers[id.index].empty())
-                    complain("pass {}: samples {}, which nobody writes", name, used.name);
+                if (!used.external && writers_[id.index].empty())
+                    complain("pass {}: samples {}, which no pass writes", name, used.name);
                 if (used.desc.samples != 1)
                     complain("pass {}: samples {}, which is multisampled; resolve it first", name, used.name);
                 continue;
@@ -109,7 +108,7 @@ class Checker
         }
     }
 
-    /// No device need be able to filter depth.
+    /// Vulkan does not require devices to filter depth formats.
     void check_samplers(const std::string& pass, const Bindings& bindings)
     {
         for (const Bindings::Sampled& sampled : bindings.sampled)
@@ -158,7 +157,7 @@ class Checker
         std::optional<ImageDesc> common;
         const auto same = [&](ImageId id) {
             if (!known(id))
-                return; // said by check_accesses
+                return; // check_accesses reports it
             const ImageDesc& desc = image(id).desc;
             if (!common)
                 common = desc;
@@ -193,51 +192,51 @@ class Checker
 
     void check_writers()
     {
-        for (std::size_t i = 0; i < writers.size(); ++i)
-            if (writers[i].size() > 1)
-                complain("pass {}: writes {}, which pass {} writes too", writers[i][1], graph.images[i].name,
-                         writers[i][0]);
+        for (std::size_t i = 0; i < writers_.size(); ++i)
+            if (writers_[i].size() > 1)
+                complain("pass {}: writes {}, which pass {} writes too", writers_[i][1],
+                         graph_.images[i].name, writers_[i][0]);
     }
 
     void check_outputs()
     {
         std::set<std::string> names;
-        for (const Graph::Readback& readback : graph.readbacks) {
+        for (const Graph::Readback& readback : graph_.readbacks) {
             if (!names.insert(readback.name).second)
                 complain("readback {}: declared twice", readback.name);
             check_output("readback " + readback.name, readback.image);
         }
-        for (const ImageId id : graph.presented)
+        for (const ImageId id : graph_.presented)
             check_output("present", id);
     }
 
     void check_output(const std::string& who, ImageId id)
     {
         if (!known(id))
-            complain("{}: of {}", who, image_name(id));
+            complain("{}: uses {}", who, image_name(id));
         else if (image(id).external)
-            complain("{}: of {}, which is imported", who, image_name(id));
-        else if (writers[id.index].empty())
-            complain("{}: of {}, which nobody writes", who, image_name(id));
+            complain("{}: uses {}, which is imported", who, image_name(id));
+        else if (writers_[id.index].empty())
+            complain("{}: uses {}, which no pass writes", who, image_name(id));
         else if (image(id).desc.samples != 1)
-            complain("{}: of {}, which is multisampled", who, image_name(id));
+            complain("{}: uses {}, which is multisampled", who, image_name(id));
     }
 
     void check_cycles()
     {
-        const std::vector<std::uint32_t> order = order_passes(graph);
+        const std::vector<std::uint32_t> order = order_passes(graph_);
         std::vector<std::string> stuck;
-        for (std::uint32_t i = 0; i < graph.passes.size(); ++i)
+        for (std::uint32_t i = 0; i < graph_.passes.size(); ++i)
             if (std::find(order.begin(), order.end(), i) == order.end())
-                stuck.push_back(name_of(graph.passes[i]));
+                stuck.push_back(name_of(graph_.passes[i]));
         if (!stuck.empty())
             complain("pass {}: no order is possible, these passes need each other's images: {}",
                      stuck.front(), fmt::join(stuck, ", "));
     }
 
-    const Graph& graph;
-    std::vector<std::vector<std::string>> writers; // of each image, names of passes
-    std::vector<std::string> lines;
+    const Graph& graph_;
+    std::vector<std::vector<std::string>> writers_; // by image: names of passes
+    std::vector<std::string> lines_;
 };
 
 void add_sampled(std::vector<ImageAccess>& list, const Bindings& bindings, Usage usage)
@@ -281,8 +280,7 @@ std::vector<std::uint32_t> order_passes(const Graph& graph)
 {
     const auto count = static_cast<std::uint32_t>(graph.passes.size());
     std::vector<std::vector<ImageAccess>> touched(count);
-    std::map<std::uint32_t, std::set<std::uint32_t>>
-        unwritten; // image -> its writers that are not yet in the order
+    std::map<std::uint32_t, std::set<std::uint32_t>> unwritten; // image -> its writers not yet in the order
     for (std::uint32_t i = 0; i < count; ++i) {
         touched[i] = accesses(graph.passes[i]);
         for (const ImageAccess& access : touched[i])
@@ -303,7 +301,7 @@ std::vector<std::uint32_t> order_passes(const Graph& graph)
         for (std::uint32_t i = 0; i < count && !progress; ++i) {
             if (done[i] || !ready(i))
                 continue;
-            done[i] = progress = true; // and start again at the first: as declared, wherever that is possible
+            done[i] = progress = true; // restart at the first pass, to keep the declared order
             order.push_back(i);
             for (const ImageAccess& access : touched[i])
                 if (access_row(access.usage).writes)

@@ -1,5 +1,5 @@
-// What the graph knows of a mesh on the device: what its vertices hold, how many indices there are, and
-// whether it has changed. Its buffers are the device's business (engine/gpu/mesh_buffer.hpp).
+// What the graph knows of a mesh on the device: vertex layout, number of indices, content number. The
+// buffers are in engine/gpu/mesh_buffer.hpp.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace graph {
 
-/// A member of a vertex struct, by the name that vertex shaders give it. All are floats.
+/// A float or float vector in a vertex struct, by its name in vertex shaders.
 struct VertexAttribute
 {
     std::string_view name;
@@ -21,7 +21,7 @@ struct VertexLayout
     std::uint32_t stride = 0; // bytes
     std::span<const VertexAttribute> attributes;
 
-    /// Null when a vertex has no such member.
+    /// Null when a vertex has no such attribute.
     const VertexAttribute* find(std::string_view name) const { return find_named(attributes, name); }
 };
 
@@ -30,11 +30,11 @@ class Mesh
   public:
     const VertexLayout& layout() const { return *layout_; }
     std::uint32_t index_count() const { return index_count_; }
-    /// Different for every mesh ever made in this process.
+    /// Unique to this mesh in the process.
     std::uint64_t content() const { return content_; }
 
   protected:
-    /// The layout must outlive the mesh: it is a constant of the program.
+    /// `layout` must outlive the mesh; it is a constant of the program.
     Mesh(const VertexLayout& layout, std::uint32_t index_count, std::uint64_t content)
         : layout_(&layout), index_count_(index_count), content_(content)
     {

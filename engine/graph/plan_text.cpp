@@ -67,8 +67,8 @@ std::string desc_text(const ImageDesc& desc)
                        desc.samples > 1 ? fmt::format(", {} samples", desc.samples) : "");
 }
 
-/// Names of what a pass reads or writes, each once, in order.
-std::vector<std::string> touched_names(const Graph& graph, const Pass& pass, bool writes)
+/// Names of the images that a pass reads or writes, each once, in order.
+std::vector<std::string> accessed_names(const Graph& graph, const Pass& pass, bool writes)
 {
     std::vector<std::string> names;
     std::set<std::uint32_t> seen;
@@ -100,9 +100,9 @@ std::string plan_text(const Graph& graph, const Plan& plan)
     for (const PassPlan& planned : plan.passes) {
         const Pass& pass = graph.passes[planned.pass];
         text += fmt::format("  {:<24} {:<8} {}\n", planned.name, name_of(planned.state), planned.reason);
-        if (const auto reads = touched_names(graph, pass, false); !reads.empty())
+        if (const auto reads = accessed_names(graph, pass, false); !reads.empty())
             text += fmt::format("      reads    {}\n", fmt::join(reads, ", "));
-        text += fmt::format("      writes   {}\n", fmt::join(touched_names(graph, pass, true), ", "));
+        text += fmt::format("      writes   {}\n", fmt::join(accessed_names(graph, pass, true), ", "));
         for (const ImageBarrier& barrier : planned.barriers)
             text += fmt::format("      barrier  {}\n", barrier_text(graph, barrier));
     }

@@ -1,4 +1,4 @@
-// A schedule for people: as text and as a Graphviz graph, for `cicatrix graph`.
+// A schedule as text and as a Graphviz graph, for `cicatrix graph`.
 #pragma once
 #include "engine/graph/schedule.hpp"
 
@@ -6,8 +6,8 @@
 
 namespace graph {
 
-/// Passes in order with what they read and write, their state
-/// and why, barriers; then images with size, format, lifetime.
+/// Passes in order with state, reason, images read and written,
+/// barriers; then images with size, format, lifetime.
 std::string plan_text(const Graph& graph, const Plan& plan);
 
 /// For `dot -Tsvg`: boxes are passes (dashed: skipped, dotted: culled), ellipses images.

@@ -37,7 +37,7 @@ void add_draw(std::vector<KeyPart>& key, const std::string& prefix, const Draw& 
     add_bindings(key, prefix, draw);
 }
 
-/// What a pass declares, images apart.
+/// The key of a pass without its images.
 std::vector<KeyPart> declared_key(const Pass& pass)
 {
     std::vector<KeyPart> key;
@@ -61,53 +61,52 @@ std::vector<KeyPart> declared_key(const Pass& pass)
     return key;
 }
 
-/// One frame's worth of work on a copy of the memory.
+/// Schedules one frame.
 class Scheduler
 {
   public:
-    Scheduler(const Graph& scheduled, const Memory& remembered)
-        : graph(scheduled), before(remembered), states(scheduled.images.size()),
-          content_versions(scheduled.images.size())
+    Scheduler(const Graph& graph, const Memory& before)
+        : graph_(graph), before_(before), states_(graph.images.size()), content_versions_(graph.images.size())
     {
     }
 
     Plan run()
     {
-        for (const std::uint32_t pass : order_passes(graph))
-            plan.passes.push_back({.pass = pass, .name = name_of(graph.passes[pass])});
-        for (const PassPlan& pass : plan.passes)
-            touched.push_back(accesses(graph.passes[pass.pass]));
-        plan.images.resize(graph.images.size());
-        plan.memory.frames = before.frames + 1;
+        for (const std::uint32_t pass : order_passes(graph_))
+            plan_.passes.push_back({.pass = pass, .name = name_of(graph_.passes[pass])});
+        for (const PassPlan& pass : plan_.passes)
+            accesses_.push_back(accesses(graph_.passes[pass.pass]));
+        plan_.images.resize(graph_.images.size());
+        plan_.memory.frames = before_.frames + 1;
         cull();
-        recall_images();
-        for (std::uint32_t position = 0; position < plan.passes.size(); ++position)
+        restore_images();
+        for (std::uint32_t position = 0; position < plan_.passes.size(); ++position)
             plan_pass(position);
         finish();
-        return std::move(plan);
+        return std::move(plan_);
     }
 
   private:
-    const std::string& image_name(ImageId id) const { return graph.images[id.index].name; }
+    const std::string& image_name(ImageId id) const { return graph_.images[id.index].name; }
     static bool writes(const ImageAccess& access) { return access_row(access.usage).writes; }
 
-    /// From the outputs backwards: a pass is needed when one of its images is.
+    /// From the last pass to the first: a pass is needed when an image it writes is needed.
     void cull()
     {
-        for (const Graph::Readback& readback : graph.readbacks)
+        for (const Graph::Readback& readback : graph_.readbacks)
             need(readback.image);
-        for (const ImageId id : graph.presented)
+        for (const ImageId id : graph_.presented)
             need(id);
-        for (std::size_t i = plan.passes.size(); i-- > 0;) {
-            PassPlan& pass = plan.passes[i];
+        for (std::size_t i = plan_.passes.size(); i-- > 0;) {
+            PassPlan& pass = plan_.passes[i];
             const bool needed =
-                std::any_of(touched[i].begin(), touched[i].end(), [&](const ImageAccess& access) {
-                    return writes(access) && plan.images[access.image.index].needed;
+                std::any_of(accesses_[i].begin(), accesses_[i].end(), [&](const ImageAccess& access) {
+                    return writes(access) && plan_.images[access.image.index].needed;
                 });
-            for (const ImageAccess& access : touched[i]) {
-                plan.images[access.image.index].usage |= access_row(access.usage).image;
+            for (const ImageAccess& access : accesses_[i]) {
+                plan_.images[access.image.index].usage |= access_row(access.usage).image;
                 if (needed && !writes(access))
-                    plan.images[access.image.index].needed = true;
+                    plan_.images[access.image.index].needed = true;
             }
             if (!needed) {
                 pass.state = PassState::Culled;
@@ -118,68 +117,68 @@ class Scheduler
 
     void need(ImageId id)
     {
-        plan.images[id.index].needed = true;
-        plan.images[id.index].usage |= access_row(Usage::CopySource).image;
+        plan_.images[id.index].needed = true;
+        plan_.images[id.index].usage |= access_row(Usage::CopySource).image;
     }
 
     std::string why_culled(std::size_t position) const
     {
-        const auto output = std::find_if(touched[position].begin(), touched[position].end(), writes);
-        for (std::size_t i = position + 1; i < plan.passes.size(); ++i)
-            for (const ImageAccess& access : touched[i])
+        const auto output = std::find_if(accesses_[position].begin(), accesses_[position].end(), writes);
+        for (std::size_t i = position + 1; i < plan_.passes.size(); ++i)
+            for (const ImageAccess& access : accesses_[i])
                 if (!writes(access) && access.image == output->image)
-                    return fmt::format("unused: only {} samples {}, and it is culled", plan.passes[i].name,
+                    return fmt::format("unused: only {} samples {}, and it is culled", plan_.passes[i].name,
                                        image_name(output->image));
         return "unused: nothing samples " + image_name(output->image);
     }
 
-    /// What is known about the images' contents; an image that must be made anew has none.
-    void recall_images()
+    /// Copies the remembered state of each image; an image that must be recreated starts without contents.
+    void restore_images()
     {
-        for (std::size_t i = 0; i < graph.images.size(); ++i) {
-            const Graph::Image& image = graph.images[i];
-            const auto remembered = before.images.find(image.name);
-            if (remembered != before.images.end() && remembered->second.desc == image.desc &&
-                (plan.images[i].usage & ~remembered->second.usage) == 0)
-                states[i] = remembered->second;
+        for (std::size_t i = 0; i < graph_.images.size(); ++i) {
+            const Graph::Image& image = graph_.images[i];
+            const auto remembered = before_.images.find(image.name);
+            if (remembered != before_.images.end() && remembered->second.desc == image.desc &&
+                (plan_.images[i].usage & ~remembered->second.usage) == 0)
+                states_[i] = remembered->second;
             else
-                states[i] = {.desc = image.desc, .usage = plan.images[i].usage};
+                states_[i] = {.desc = image.desc, .usage = plan_.images[i].usage};
             if (image.external)
-                content_versions[i] = image.external->content;
+                content_versions_[i] = image.external->content;
         }
     }
 
     void plan_pass(std::uint32_t position)
     {
-        PassPlan& planned = plan.passes[position];
+        PassPlan& planned = plan_.passes[position];
         if (planned.state == PassState::Culled) {
-            if (const auto key = before.passes.find(planned.name); key != before.passes.end())
-                plan.memory.passes.insert(*key);
+            if (const auto key = before_.passes.find(planned.name); key != before_.passes.end())
+                plan_.memory.passes.insert(*key);
             return;
         }
-        for (const ImageAccess& access : touched[position]) {
-            ImagePlan& image = plan.images[access.image.index];
+        for (const ImageAccess& access : accesses_[position]) {
+            ImagePlan& image = plan_.images[access.image.index];
             image.first = std::min(image.first, position);
             image.last = position;
         }
         std::vector<KeyPart> key = full_key(position);
-        const bool always = std::visit([](const auto& p) { return p.always; }, graph.passes[planned.pass]);
-        const std::string lost = stamp_outputs(position, key, always);
-        if (lost.empty()) {
+        const bool always = std::visit([](const auto& p) { return p.always; }, graph_.passes[planned.pass]);
+        const std::string outdated = update_outputs(position, key, always);
+        if (outdated.empty()) {
             planned.state = PassState::Skipped;
             planned.reason = "unchanged";
         } else {
-            planned.reason = always ? "every frame" : why_run(planned.name, key, lost);
-            place(position);
+            planned.reason = always ? "every frame" : why_run(planned.name, key, outdated);
+            plan_run(position);
         }
-        plan.memory.passes[planned.name] = std::move(key);
+        plan_.memory.passes[planned.name] = std::move(key);
     }
 
     std::vector<KeyPart> full_key(std::uint32_t position) const
     {
-        std::vector<KeyPart> key = declared_key(graph.passes[plan.passes[position].pass]);
-        for (const ImageAccess& access : touched[position]) {
-            const ImageDesc& desc = graph.images[access.image.index].desc;
+        std::vector<KeyPart> key = declared_key(graph_.passes[plan_.passes[position].pass]);
+        for (const ImageAccess& access : accesses_[position]) {
+            const ImageDesc& desc = graph_.images[access.image.index].desc;
             if (writes(access))
                 key.push_back({"size of " + image_name(access.image), base::Hash()
                                                                           .add(desc.width)
@@ -188,13 +187,13 @@ class Scheduler
                                                                           .add(desc.samples)
                                                                           .value()});
             else
-                key.push_back({"input " + image_name(access.image), content_versions[access.image.index]});
+                key.push_back({"input " + image_name(access.image), content_versions_[access.image.index]});
         }
-        add_samplers(key, graph.passes[plan.passes[position].pass]);
+        add_samplers(key, graph_.passes[plan_.passes[position].pass]);
         return key;
     }
 
-    /// Which image goes to which name of the shader, and how it is filtered.
+    /// Shader name, filter and number of images of each sampled binding.
     static void add_samplers(std::vector<KeyPart>& key, const Pass& pass)
     {
         base::Hash hash;
@@ -212,60 +211,60 @@ class Scheduler
         key.push_back({"samplers", hash.value()});
     }
 
-    /// Gives every output its content_version and returns the first
-    /// needed one that does not hold it already; empty: all do.
-    std::string stamp_outputs(std::uint32_t position, const std::vector<KeyPart>& key, bool always)
+    /// Gives every output its content_version and returns the name of the
+    /// first needed output that is not up to date; empty: all are.
+    std::string update_outputs(std::uint32_t position, const std::vector<KeyPart>& key, bool always)
     {
         base::Hash hash;
         for (const KeyPart& part : key)
             hash.add(part.what).add(part.hash);
         if (always)
-            hash.add(plan.memory.frames); // never the same again
-        std::string lost;
-        for (const ImageAccess& access : touched[position]) {
+            hash.add(plan_.memory.frames); // differs in every frame
+        std::string outdated;
+        for (const ImageAccess& access : accesses_[position]) {
             if (!writes(access))
                 continue;
             const std::uint32_t image = access.image.index;
-            content_versions[image] = base::Hash(hash).add(image_name(access.image)).value();
-            if (lost.empty() && plan.images[image].needed &&
-                states[image].content_version != content_versions[image])
-                lost = image_name(access.image);
+            content_versions_[image] = base::Hash(hash).add(image_name(access.image)).value();
+            if (outdated.empty() && plan_.images[image].needed &&
+                states_[image].content_version != content_versions_[image])
+                outdated = image_name(access.image);
         }
-        return lost;
+        return outdated;
     }
 
     std::string why_run(const std::string& pass, const std::vector<KeyPart>& key,
-                        const std::string& lost) const
+                        const std::string& outdated) const
     {
-        const auto last = before.passes.find(pass);
-        if (last == before.passes.end())
+        const auto last = before_.passes.find(pass);
+        if (last == before_.passes.end())
             return "first run";
         for (std::size_t i = 0; i < key.size(); ++i)
             if (i >= last->second.size() || last->second[i] != key[i])
                 return "changed: " + key[i].what;
         if (last->second.size() > key.size())
-            return "changed: " + last->second[key.size()].what + " is gone";
-        return "changed: the contents of " + lost + " were not kept";
+            return "changed: " + last->second[key.size()].what + " was removed";
+        return "changed: the contents of " + outdated + " were not kept";
     }
 
-    /// Barriers, store ops and what the images hold afterwards.
-    void place(std::uint32_t position)
+    /// Plans the barriers and store operations of a pass that runs and updates its images' state.
+    void plan_run(std::uint32_t position)
     {
-        PassPlan& planned = plan.passes[position];
-        for (const ImageAccess& access : touched[position]) {
+        PassPlan& planned = plan_.passes[position];
+        for (const ImageAccess& access : accesses_[position]) {
             const std::uint32_t image = access.image.index;
-            if (graph.images[image].external)
-                continue; // always ready to be sampled
-            if (const auto barrier = advance(states[image].access, access.usage))
+            if (graph_.images[image].external)
+                continue; // always in the layout for sampling
+            if (const auto barrier = advance(states_[image].access, access.usage))
                 planned.barriers.push_back({access.image, *barrier});
             if (writes(access))
-                states[image].content_version = plan.images[image].needed ? content_versions[image] : 0;
+                states_[image].content_version = plan_.images[image].needed ? content_versions_[image] : 0;
         }
         const auto store = [&](ImageId id) {
-            return id.valid() && plan.images[id.index].needed ? VK_ATTACHMENT_STORE_OP_STORE
-                                                              : VK_ATTACHMENT_STORE_OP_DONT_CARE;
+            return id.valid() && plan_.images[id.index].needed ? VK_ATTACHMENT_STORE_OP_STORE
+                                                               : VK_ATTACHMENT_STORE_OP_DONT_CARE;
         };
-        if (const auto* raster = std::get_if<RasterPass>(&graph.passes[planned.pass])) {
+        if (const auto* raster = std::get_if<RasterPass>(&graph_.passes[planned.pass])) {
             for (const RasterPass::ColorTarget& target : raster->colors) {
                 planned.color_stores.push_back(store(target.image));
                 planned.resolve_stores.push_back(store(target.resolve));
@@ -276,24 +275,23 @@ class Scheduler
 
     void finish()
     {
-        std::vector<ImageId> outputs = graph.presented;
-        for (const Graph::Readback& readback : graph.readbacks)
+        std::vector<ImageId> outputs = graph_.presented;
+        for (const Graph::Readback& readback : graph_.readbacks)
             outputs.push_back(readback.image);
         for (const ImageId id : outputs)
-            if (const auto barrier = advance(states[id.index].access, Usage::CopySource))
-                plan.final_barriers.push_back({id, *barrier});
-        for (std::size_t i = 0; i < graph.images.size(); ++i)
-            if (!graph.images[i].external)
-                plan.memory.images.emplace(graph.images[i].name, states[i]);
+            if (const auto barrier = advance(states_[id.index].access, Usage::CopySource))
+                plan_.final_barriers.push_back({id, *barrier});
+        for (std::size_t i = 0; i < graph_.images.size(); ++i)
+            if (!graph_.images[i].external)
+                plan_.memory.images.emplace(graph_.images[i].name, states_[i]);
     }
 
-    const Graph& graph;
-    const Memory& before;
-    Plan plan;
-    std::vector<std::vector<ImageAccess>> touched; // by position in plan.passes
-    std::vector<ImageState> states;                // by image
-    std::vector<std::uint64_t>
-        content_versions; // by image: what it holds once its writer has run or been skipped
+    const Graph& graph_;
+    const Memory& before_;
+    Plan plan_;
+    std::vector<std::vector<ImageAccess>> accesses_; // by position in plan.passes
+    std::vector<ImageState> states_;                 // by image
+    std::vector<std::uint64_t> content_versions_;    // by image: after its writer has run or been skipped
 };
 
 } // namespace

@@ -1,9 +1,8 @@
-// From a declared frame to what has to be done for it: order, what runs, what is skipped or culled and why,
-// barriers, lifetimes. A pure function: no Vulkan call is made, so its tests need no device.
+// Schedules a declared frame: order of passes, which run, which are skipped or culled and why, barriers,
+// lifetimes. A pure function without Vulkan calls, so its tests need no device.
 //
-// Contents are told apart by content_versions. The content_version of an image is a hash of its writer's key
-// and of the content_versions of everything the writer samples; a pass whose needed outputs already hold
-// their content_versions is skipped.
+// The content_version of an image is a hash of its writer's key and of the content_versions of all images
+// the writer samples. A pass is skipped when its needed outputs already have their content_versions.
 #pragma once
 #include "engine/graph/access.hpp"
 #include "engine/graph/graph.hpp"
@@ -14,7 +13,7 @@
 
 namespace graph {
 
-/// One thing that decides what a pass computes ("uniform day", "input wound_color") and a hash of its value.
+/// One input that determines a pass's output ("uniform day", "input wound_color") and a hash of its value.
 struct KeyPart
 {
     std::string what;
@@ -30,19 +29,19 @@ struct ImageState
     std::uint64_t content_version = 0; // 0: contents undefined
 };
 
-/// What must be remembered from one frame for the next. Value-initialised: nothing exists yet.
+/// State carried from one frame to the next. Value-initialised: no image exists yet.
 struct Memory
 {
     std::map<std::string, ImageState> images;
-    std::map<std::string, std::vector<KeyPart>> passes; // keys of the last runs
+    std::map<std::string, std::vector<KeyPart>> passes; // key of each pass's last run
     std::uint64_t frames = 0;
 };
 
 enum class PassState : std::uint8_t
 {
     Run,
-    Skipped, // its outputs already hold what it would write
-    Culled,  // nobody needs its outputs
+    Skipped, // its outputs are up to date
+    Culled,  // nothing needs its outputs
 };
 
 struct ImageBarrier
@@ -65,18 +64,18 @@ struct PassPlan
 
 struct ImagePlan
 {
-    VkImageUsageFlags usage = 0; // all that the graph declares, culled passes included
+    VkImageUsageFlags usage = 0; // of all passes, including culled ones
     std::uint32_t first = ~0u,
-                  last = ~0u; // in Plan::passes, culled ones left out; ~0: not needed in this frame
-    bool needed = false;      // its contents are read by a pass that is not culled, read back or presented
+                  last = ~0u; // in Plan::passes, without culled ones; ~0: not used in this frame
+    bool needed = false;      // read by a pass that is not culled, read back or presented
 };
 
 struct Plan
 {
     std::vector<PassPlan> passes;             // in order of execution
     std::vector<ImagePlan> images;            // by ImageId
-    std::vector<ImageBarrier> final_barriers; // before the read-backs
-    Memory memory;                            // to be given to the next frame
+    std::vector<ImageBarrier> final_barriers; // before the readbacks
+    Memory memory;                            // for the next frame
 };
 
 /// Throws std::logic_error when the declaration is wrong; see graph_check.hpp.

@@ -58,23 +58,23 @@ ShaderLibrary::ShaderLibrary(std::span<const EmbeddedShader> shaders)
 void ShaderLibrary::add(std::span<const EmbeddedShader> shaders)
 {
     for (const EmbeddedShader& shader : shaders)
-        words.emplace(shader.name, shader.words);
+        words_.emplace(shader.name, shader.words);
 }
 
 const Shader* ShaderLibrary::find(std::string_view name) const
 {
-    if (const auto known = reflected.find(name); known != reflected.end())
+    if (const auto known = reflected_.find(name); known != reflected_.end())
         return known->second.get();
-    const auto found = words.find(name);
-    if (found == words.end())
+    const auto found = words_.find(name);
+    if (found == words_.end())
         return nullptr;
     auto shader = std::make_unique<Shader>(Shader{found->first, found->second, reflect(found->second)});
-    return reflected.emplace(name, std::move(shader)).first->second.get();
+    return reflected_.emplace(name, std::move(shader)).first->second.get();
 }
 
 const ShaderGroup& ShaderLibrary::group(std::string_view name) const
 {
-    if (const auto known = groups.find(name); known != groups.end())
+    if (const auto known = groups_.find(name); known != groups_.end())
         return *known->second;
     auto group = std::make_unique<ShaderGroup>();
     group->name = name;
@@ -93,7 +93,7 @@ const ShaderGroup& ShaderLibrary::group(std::string_view name) const
         merge_bindings(*group, *shader);
         merge_constants(*group, *shader);
     }
-    return *groups.emplace(name, std::move(group)).first->second;
+    return *groups_.emplace(name, std::move(group)).first->second;
 }
 
 } // namespace graph

@@ -1,4 +1,4 @@
-// The compiled shaders by name, reflected on first use, and the groups of stages that make up a pipeline.
+// Compiled shaders by name, reflected on first use, and the groups of stages that form a pipeline.
 #pragma once
 #include "engine/graph/embedded_shaders.hpp"
 #include "engine/graph/spirv.hpp"
@@ -19,7 +19,7 @@ struct Shader
     ShaderInterface interface;
 };
 
-/// The stages of one pipeline and what they want together.
+/// The stages of one pipeline and their merged interface.
 struct ShaderGroup
 {
     struct Binding : ShaderBinding
@@ -29,8 +29,8 @@ struct ShaderGroup
     std::string name;
     std::vector<const Shader*> stages; // one compute shader, or vertex and fragment
     std::vector<Binding> bindings;
-    std::vector<ShaderConstant> constants; // by name; stages may use different ids for one name
-    std::vector<std::string> problems;     // why it cannot be used; empty: fine
+    std::vector<ShaderConstant> constants; // by name; ids of one name may differ between stages
+    std::vector<std::string> problems;     // why it cannot be used; empty: usable
 
     const Binding* find_binding(std::string_view binding) const;
     const ShaderConstant* find_constant(std::string_view constant) const;
@@ -39,21 +39,21 @@ struct ShaderGroup
 class ShaderLibrary
 {
   public:
-    /// The tables must outlive the library.
+    /// The arrays must outlive the library.
     explicit ShaderLibrary(std::span<const EmbeddedShader> shaders = embedded_shaders());
     void add(std::span<const EmbeddedShader> shaders);
 
-    /// Null when there is no such shader. "forward.frag"
+    /// By file name, "forward.frag"; null when there is no such shader.
     const Shader* find(std::string_view name) const;
 
-    /// "wound_texture.comp" is that compute shader, "forward" is
-    /// forward.vert with forward.frag. Problems are in the group.
+    /// "wound_texture.comp" is one compute shader; "forward" is forward.vert
+    /// with forward.frag. Errors are listed in ShaderGroup::problems.
     const ShaderGroup& group(std::string_view name) const;
 
   private:
-    std::map<std::string, std::span<const std::uint32_t>, std::less<>> words;
-    mutable std::map<std::string, std::unique_ptr<Shader>, std::less<>> reflected;
-    mutable std::map<std::string, std::unique_ptr<ShaderGroup>, std::less<>> groups;
+    std::map<std::string, std::span<const std::uint32_t>, std::less<>> words_;
+    mutable std::map<std::string, std::unique_ptr<Shader>, std::less<>> reflected_;
+    mutable std::map<std::string, std::unique_ptr<ShaderGroup>, std::less<>> groups_;
 };
 
 } // namespace graph

@@ -16,7 +16,7 @@ namespace {
 struct Instruction
 {
     spv::Op op;
-    std::span<const std::uint32_t> words; // operands, the first word left out
+    std::span<const std::uint32_t> words; // operands, without the first word
 };
 
 std::string text_at(std::span<const std::uint32_t> words)
@@ -76,18 +76,18 @@ class Reflector
 
     ShaderInterface result()
     {
-        for (const auto& [id, type] : types)
+        for (const auto& [id, type] : types_)
             if (type.op == spv::OpTypeStruct && member_decoration(id, 0, spv::DecorationOffset))
-                out.structs.push_back(describe_struct(id));
-        for (std::size_t axis = 0; axis < local_size_ids.size(); ++axis)
-            out.local_size[axis] = values.at(local_size_ids[axis]);
-        for (const Variable& variable : variables)
+                out_.structs.push_back(describe_struct(id));
+        for (std::size_t axis = 0; axis < local_size_ids_.size(); ++axis)
+            out_.local_size[axis] = values_.at(local_size_ids_[axis]);
+        for (const Variable& variable : variables_)
             describe(variable);
-        std::sort(out.bindings.begin(), out.bindings.end(),
+        std::sort(out_.bindings.begin(), out_.bindings.end(),
                   [](const ShaderBinding& a, const ShaderBinding& b) { return a.binding < b.binding; });
-        std::sort(out.inputs.begin(), out.inputs.end(),
+        std::sort(out_.inputs.begin(), out_.inputs.end(),
                   [](const ShaderInput& a, const ShaderInput& b) { return a.location < b.location; });
-        return std::move(out);
+        return std::move(out_);
     }
 
   private:
@@ -106,26 +106,26 @@ class Reflector
             break;
         case spv::OpExecutionMode:
             if (i.words[1] == spv::ExecutionModeLocalSize)
-                std::copy_n(i.words.begin() + 2, 3, out.local_size.begin());
+                std::copy_n(i.words.begin() + 2, 3, out_.local_size.begin());
             break;
         case spv::OpExecutionModeId:
-            if (i.words[1] == spv::ExecutionModeLocalSizeId) // how SPIR-V 1.6 says it
-                local_size_ids = i.words.subspan(2, 3);
+            if (i.words[1] == spv::ExecutionModeLocalSizeId) // the form of SPIR-V 1.6
+                local_size_ids_ = i.words.subspan(2, 3);
             break;
         case spv::OpName:
-            names[i.words[0]] = text_at(i.words.subspan(1));
+            names_[i.words[0]] = text_at(i.words.subspan(1));
             break;
         case spv::OpMemberName:
-            member_names[{i.words[0], i.words[1]}] = text_at(i.words.subspan(2));
+            member_names_[{i.words[0], i.words[1]}] = text_at(i.words.subspan(2));
             break;
         case spv::OpDecorate:
-            decorations[{i.words[0], i.words[1]}] = i.words.size() > 2 ? i.words[2] : 1;
+            decorations_[{i.words[0], i.words[1]}] = i.words.size() > 2 ? i.words[2] : 1;
             break;
         case spv::OpMemberDecorate:
-            member_decorations[{i.words[0], i.words[1], i.words[2]}] = i.words.size() > 3 ? i.words[3] : 1;
+            member_decorations_[{i.words[0], i.words[1], i.words[2]}] = i.words.size() > 3 ? i.words[3] : 1;
             break;
         case spv::OpConstant:
-            values[i.words[1]] = i.words[2];
+            values_[i.words[1]] = i.words[2];
             break;
         case spv::OpSpecConstantTrue:
         case spv::OpSpecConstantFalse:
@@ -133,11 +133,11 @@ class Reflector
             take_constant(i);
             break;
         case spv::OpVariable:
-            variables.push_back({i.words[1], i.words[0], static_cast<spv::StorageClass>(i.words[2])});
+            variables_.push_back({i.words[1], i.words[0], static_cast<spv::StorageClass>(i.words[2])});
             break;
         default:
             if (i.op >= spv::OpTypeVoid && i.op <= spv::OpTypePointer)
-                types.emplace(i.words[0], i);
+                types_.emplace(i.words[0], i);
         }
     }
 
@@ -145,16 +145,16 @@ class Reflector
     {
         switch (model) {
         case spv::ExecutionModelVertex:
-            out.stage = VK_SHADER_STAGE_VERTEX_BIT;
+            out_.stage = VK_SHADER_STAGE_VERTEX_BIT;
             break;
         case spv::ExecutionModelFragment:
-            out.stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+            out_.stage = VK_SHADER_STAGE_FRAGMENT_BIT;
             break;
         case spv::ExecutionModelGLCompute:
-            out.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+            out_.stage = VK_SHADER_STAGE_COMPUTE_BIT;
             break;
         default:
-            out.unsupported.push_back("a stage other than vertex, fragment and compute");
+            out_.unsupported.push_back("a stage other than vertex, fragment and compute");
         }
     }
 
@@ -162,39 +162,39 @@ class Reflector
     {
         const Id id = i.words[1];
         if (i.op == spv::OpSpecConstant)
-            values[id] = i.words[2]; // its default: the length of an array may be one
+            values_[id] = i.words[2]; // default value; array lengths may be specialisation constants
         const auto number = decoration(id, spv::DecorationSpecId);
         if (!number)
             return;
         using Type = ShaderConstant::Type;
-        const Instruction& type = types.at(i.words[0]);
+        const Instruction& type = types_.at(i.words[0]);
         Type kind = Type::Bool;
         if (type.op == spv::OpTypeInt)
             kind = type.words[2] ? Type::Int : Type::Uint;
         else if (type.op == spv::OpTypeFloat)
             kind = Type::Float;
         if (type.op != spv::OpTypeBool && type.words[1] != 32)
-            out.unsupported.push_back("constant " + names[id] + " of a type that is not 32 bits wide");
-        out.constants.push_back({names[id], *number, kind});
+            out_.unsupported.push_back("constant " + names_[id] + " of a type that is not 32 bits wide");
+        out_.constants.push_back({names_[id], *number, kind});
     }
 
     std::optional<std::uint32_t> decoration(Id id, spv::Decoration what) const
     {
-        const auto found = decorations.find({id, what});
-        return found == decorations.end() ? std::nullopt : std::optional(found->second);
+        const auto found = decorations_.find({id, what});
+        return found == decorations_.end() ? std::nullopt : std::optional(found->second);
     }
 
     std::optional<std::uint32_t> member_decoration(Id id, std::uint32_t member, spv::Decoration what) const
     {
-        const auto found = member_decorations.find({id, member, what});
-        return found == member_decorations.end() ? std::nullopt : std::optional(found->second);
+        const auto found = member_decorations_.find({id, member, what});
+        return found == member_decorations_.end() ? std::nullopt : std::optional(found->second);
     }
 
-    /// Bytes of a value of this type, as member `member` of
-    /// struct `parent` (which says how a matrix is laid out).
+    /// Bytes of a value of this type as member `member` of struct
+    /// `parent`, which decorates matrices with their stride.
     std::uint32_t size_of(Id id, Id parent = 0, std::uint32_t member = 0) const
     {
-        const Instruction& type = types.at(id);
+        const Instruction& type = types_.at(id);
         switch (type.op) {
         case spv::OpTypeBool:
             return 4;
@@ -204,7 +204,7 @@ class Reflector
         case spv::OpTypeVector:
             return size_of(type.words[1]) * type.words[2];
         case spv::OpTypeMatrix: {
-            // Columns (or rows) lie `stride` apart, the last one has no padding behind it.
+            // Columns (or rows) are `stride` apart; the last has no padding after it.
             const std::uint32_t column = size_of(type.words[1]);
             const auto stride = member_decoration(parent, member, spv::DecorationMatrixStride);
             return stride.value_or(column) * (type.words[2] - 1) + column;
@@ -212,7 +212,7 @@ class Reflector
         case spv::OpTypeArray: {
             const std::uint32_t stride =
                 decoration(id, spv::DecorationArrayStride).value_or(size_of(type.words[1]));
-            return stride * values.at(type.words[2]);
+            return stride * values_.at(type.words[2]);
         }
         case spv::OpTypeStruct:
             return struct_size(id);
@@ -223,7 +223,7 @@ class Reflector
 
     std::uint32_t struct_size(Id id) const
     {
-        const Instruction& type = types.at(id);
+        const Instruction& type = types_.at(id);
         std::uint32_t size = 0;
         for (std::uint32_t m = 0; m + 1 < type.words.size(); ++m)
             size = std::max(size, member_decoration(id, m, spv::DecorationOffset).value_or(0) +
@@ -234,10 +234,10 @@ class Reflector
     ShaderStruct describe_struct(Id id) const
     {
         ShaderStruct described{.name = name_of(id), .size = struct_size(id), .members = {}};
-        const Instruction& type = types.at(id);
+        const Instruction& type = types_.at(id);
         for (std::uint32_t m = 0; m + 1 < type.words.size(); ++m) {
-            const auto name = member_names.find({id, m});
-            described.members.push_back({name == member_names.end() ? "" : name->second,
+            const auto name = member_names_.find({id, m});
+            described.members.push_back({name == member_names_.end() ? "" : name->second,
                                          member_decoration(id, m, spv::DecorationOffset).value_or(0),
                                          size_of(type.words[m + 1], id, m)});
         }
@@ -246,13 +246,13 @@ class Reflector
 
     std::string name_of(Id id) const
     {
-        const auto name = names.find(id);
-        return name == names.end() ? "" : name->second;
+        const auto name = names_.find(id);
+        return name == names_.end() ? "" : name->second;
     }
 
     void describe(const Variable& variable)
     {
-        const Id pointee = types.at(variable.pointer_type).words[2];
+        const Id pointee = types_.at(variable.pointer_type).words[2];
         switch (variable.storage) {
         case spv::StorageClassUniformConstant:
         case spv::StorageClassUniform:
@@ -260,15 +260,16 @@ class Reflector
             describe_binding(variable, pointee);
             break;
         case spv::StorageClassPushConstant:
-            out.unsupported.push_back("push constants");
+            out_.unsupported.push_back("push constants");
             break;
         case spv::StorageClassInput:
-            if (out.stage == VK_SHADER_STAGE_VERTEX_BIT && !decoration(variable.id, spv::DecorationBuiltIn))
+            if (out_.stage == VK_SHADER_STAGE_VERTEX_BIT && !decoration(variable.id, spv::DecorationBuiltIn))
                 describe_input(variable, pointee);
             break;
         case spv::StorageClassOutput:
-            if (out.stage == VK_SHADER_STAGE_FRAGMENT_BIT && !decoration(variable.id, spv::DecorationBuiltIn))
-                ++out.outputs;
+            if (out_.stage == VK_SHADER_STAGE_FRAGMENT_BIT &&
+                !decoration(variable.id, spv::DecorationBuiltIn))
+                ++out_.outputs;
             break;
         default:
             break;
@@ -277,16 +278,16 @@ class Reflector
 
     void describe_input(const Variable& variable, Id pointee)
     {
-        const Instruction& type = types.at(pointee);
+        const Instruction& type = types_.at(pointee);
         ShaderInput input{.name = name_of(variable.id),
                           .location = decoration(variable.id, spv::DecorationLocation).value_or(0)};
-        if (type.op == spv::OpTypeVector && types.at(type.words[1]).op == spv::OpTypeFloat)
+        if (type.op == spv::OpTypeVector && types_.at(type.words[1]).op == spv::OpTypeFloat)
             input.components = type.words[2];
         else if (type.op == spv::OpTypeFloat)
             input.components = 1;
         else
-            out.unsupported.push_back("vertex input " + input.name + " that is not made of floats");
-        out.inputs.push_back(input);
+            out_.unsupported.push_back("vertex input " + input.name + " that is not made of floats");
+        out_.inputs.push_back(input);
     }
 
     void describe_binding(const Variable& variable, Id pointee)
@@ -295,11 +296,11 @@ class Reflector
                               .set = decoration(variable.id, spv::DecorationDescriptorSet).value_or(0),
                               .binding = decoration(variable.id, spv::DecorationBinding).value_or(0)};
         Id element = pointee;
-        if (types.at(pointee).op == spv::OpTypeArray) {
-            element = types.at(pointee).words[1];
-            binding.count = values.at(types.at(pointee).words[2]);
+        if (types_.at(pointee).op == spv::OpTypeArray) {
+            element = types_.at(pointee).words[1];
+            binding.count = values_.at(types_.at(pointee).words[2]);
         }
-        const Instruction& type = types.at(element);
+        const Instruction& type = types_.at(element);
         if (type.op == spv::OpTypeSampledImage)
             binding.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
         else if (type.op == spv::OpTypeImage && type.words[6] == 2) // 2: used without a sampler
@@ -316,32 +317,32 @@ class Reflector
         }
         if (binding.type == VK_DESCRIPTOR_TYPE_MAX_ENUM ||
             (binding.count != 1 && binding.type != VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER))
-            out.unsupported.push_back("binding " + binding.name + " of a kind the engine cannot give");
+            out_.unsupported.push_back("binding " + binding.name + " of a kind the engine does not support");
         if (binding.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE && binding.format == VK_FORMAT_UNDEFINED)
-            out.unsupported.push_back("storage image " + binding.name +
-                                      " of a format the engine does not have");
+            out_.unsupported.push_back("storage image " + binding.name +
+                                       " of a format the engine does not support");
         if (binding.set != 0)
-            out.unsupported.push_back("binding " + binding.name + " in a set other than 0");
-        out.bindings.push_back(std::move(binding));
+            out_.unsupported.push_back("binding " + binding.name + " in a set other than 0");
+        out_.bindings.push_back(std::move(binding));
     }
 
     std::uint32_t unsized_stride(const Instruction& block) const
     {
         const Id last = block.words.back();
-        return types.at(last).op == spv::OpTypeRuntimeArray
+        return types_.at(last).op == spv::OpTypeRuntimeArray
                    ? decoration(last, spv::DecorationArrayStride).value_or(0)
                    : 0;
     }
 
-    ShaderInterface out;
-    std::map<Id, std::string> names;
-    std::map<std::pair<Id, std::uint32_t>, std::string> member_names;
-    std::map<std::pair<Id, std::uint32_t>, std::uint32_t> decorations;
-    std::map<std::array<std::uint32_t, 3>, std::uint32_t> member_decorations;
-    std::map<Id, std::uint32_t> values; // of 32-bit constants
-    std::span<const Id> local_size_ids;
-    std::map<Id, Instruction> types;
-    std::vector<Variable> variables;
+    ShaderInterface out_;
+    std::map<Id, std::string> names_;
+    std::map<std::pair<Id, std::uint32_t>, std::string> member_names_;
+    std::map<std::pair<Id, std::uint32_t>, std::uint32_t> decorations_;
+    std::map<std::array<std::uint32_t, 3>, std::uint32_t> member_decorations_;
+    std::map<Id, std::uint32_t> values_; // of 32-bit constants
+    std::span<const Id> local_size_ids_;
+    std::map<Id, Instruction> types_;
+    std::vector<Variable> variables_;
 };
 
 } // namespace

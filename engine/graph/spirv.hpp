@@ -1,6 +1,6 @@
-// What a compiled shader says about itself: bindings, vertex inputs,
-// specialisation constants, block layouts. Reads the few SPIR-V instructions
-// that name and place things; the modules are our own, validated at build time.
+// Reflection of a compiled shader: bindings, vertex inputs, specialisation
+// constants, block layouts. Reads only the SPIR-V instructions that declare
+// these; all modules are compiled from shaders/ and validated at build time.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -19,7 +19,7 @@ struct ShaderMember
     bool operator==(const ShaderMember&) const = default;
 };
 
-/// A struct with offsets: a block, or a struct inside one.
+/// A struct with member offsets: a block, or a struct inside a block.
 struct ShaderStruct
 {
     std::string name;
@@ -29,10 +29,10 @@ struct ShaderStruct
 
 struct ShaderBinding
 {
-    std::string name; // instance name, or the block's name when it has none
+    std::string name; // instance name, or the block's name without one
     std::uint32_t set = 0, binding = 0;
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_MAX_ENUM;
-    std::uint32_t count = 1;  // elements of an array of samplers
+    std::uint32_t count = 1;  // elements of a sampler array; else 1
     std::uint32_t size = 0;   // bytes of a uniform block, or of a storage block before its unsized array
     std::uint32_t stride = 0; // bytes of one element of the unsized array
     VkFormat format = VK_FORMAT_UNDEFINED; // of a storage image
@@ -41,7 +41,7 @@ struct ShaderBinding
 struct ShaderInput
 {
     std::string name;
-    std::uint32_t location = 0, components = 0; // of 32-bit floats
+    std::uint32_t location = 0, components = 0; // components: 32-bit floats
 };
 
 struct ShaderConstant
@@ -63,19 +63,19 @@ struct ShaderInterface
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_ALL;
     std::array<std::uint32_t, 3> local_size{1, 1, 1};
     std::vector<ShaderBinding> bindings;
-    std::vector<ShaderInput> inputs; // of a vertex shader, built-in ones left out
-    std::uint32_t outputs = 0;       // colours a fragment shader writes
+    std::vector<ShaderInput> inputs; // of a vertex shader, without built-ins
+    std::uint32_t outputs = 0;       // number of colours a fragment shader writes
     std::vector<ShaderConstant> constants;
     std::vector<ShaderStruct> structs;
     std::vector<std::string>
-        unsupported; // what the engine cannot feed: push constants, sets other than 0, ...
+        unsupported; // interface the engine does not support: push constants, sets other than 0, ...
 
     const ShaderBinding* find_binding(std::string_view name) const;
     const ShaderConstant* find_constant(std::string_view name) const;
     const ShaderStruct* find_struct(std::string_view name) const;
 };
 
-/// Throws std::logic_error when the words are no SPIR-V module.
+/// Throws std::logic_error when the words are not a SPIR-V module.
 ShaderInterface reflect(std::span<const std::uint32_t> words);
 
 } // namespace graph

@@ -24,35 +24,35 @@ FrameKeys Keyboard::take(bool text_wanted)
 {
     using enum KeyEvent::Kind;
     FrameKeys frame;
-    const bool rests = std::exchange(resting, false);
-    std::vector<int> down; // in this frame, by keys that write nothing
-    for (; !events.empty(); events.pop_front()) {
-        const KeyEvent& event = events.front();
+    const bool was_resting = std::exchange(resting_, false);
+    std::vector<int> down; // pressed in this frame, writing no text
+    for (; !events_.empty(); events_.pop_front()) {
+        const KeyEvent& event = events_.front();
         if (event.kind == Text) {
-            if (text_wanted && (rests || resting))
+            if (text_wanted && (was_resting || resting_))
                 break;
             if (text_wanted)
                 frame.text.push_back(event.text);
         } else if (event.kind == Up) {
-            if (std::ranges::find(down, event.key) != down.end() || (is_modifier(event.key) && resting))
+            if (std::ranges::find(down, event.key) != down.end() || (is_modifier(event.key) && resting_))
                 break;
             frame.changes.push_back({event.key, false});
         } else if (is_modifier(event.key)) {
-            if (!frame.text.empty() && !is_shift(event.key)) // text under Ctrl would be none
+            if (!frame.text.empty() && !is_shift(event.key)) // with Ctrl down the text would be ignored
                 break;
             if (event.kind == Down)
                 frame.changes.push_back({event.key, true});
         } else {
-            // A space also presses buttons: a key that writes nothing, and its text behind it.
+            // A space also presses buttons, so it counts as a key that writes no text; its text follows.
             const bool writes =
-                text_wanted && events.size() > 1 && events[1].kind == Text && events[1].text != U' ';
-            if (writes ? rests || resting : !frame.text.empty() || (rests && event.kind == Down))
+                text_wanted && events_.size() > 1 && events_[1].kind == Text && events_[1].text != U' ';
+            if (writes ? was_resting || resting_ : !frame.text.empty() || (was_resting && event.kind == Down))
                 break;
             frame.presses.push_back(event.press);
             if (event.kind == Down)
                 frame.changes.push_back({event.key, true});
             if (!writes) {
-                resting = true;
+                resting_ = true;
                 down.push_back(event.key);
             }
         }

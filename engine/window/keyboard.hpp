@@ -1,6 +1,6 @@
-// The keyboard between a window and a frame. On a slow device many keys come within one frame, and an
-// interface that looks once a frame would lose some and mix up others: text typed before and after a Tab,
-// say.
+// Queue of keyboard events between a window and the frames. On a slow device many events arrive within one
+// frame. An interface that polls once a frame would lose some and reorder others, such as text typed before
+// and after a Tab.
 #pragma once
 #include <deque>
 #include <vector>
@@ -9,7 +9,7 @@ namespace window {
 
 struct KeyPress
 {
-    int key = 0; // GLFW_KEY_..., a place on a US keyboard; of a letter, what it writes
+    int key = 0; // GLFW_KEY_..., position on a US keyboard; for letters, the character
     bool control = false, shift = false, alt = false;
 };
 
@@ -20,15 +20,15 @@ struct KeyChange
     bool down = false;
 };
 
-/// As the window system tells it.
+/// Event as the window system reports it.
 struct KeyEvent
 {
     enum class Kind
     {
         Down,
-        Repeat, // is held down
+        Repeat, // held down
         Up,
-        Text, // what the key before wrote
+        Text, // character from the key event before it
     };
     Kind kind = Kind::Down;
     int key = 0;       // GLFW_KEY_...
@@ -36,27 +36,27 @@ struct KeyEvent
     char32_t text = 0; // Text
 };
 
-/// What one frame is told.
+/// Keyboard input of one frame.
 struct FrameKeys
 {
     std::vector<KeyChange> changes; // in order
-    std::vector<KeyPress> presses;  // in order, repeated ones as well
+    std::vector<KeyPress> presses;  // in order, including repeats
     std::vector<char32_t> text;
 };
 
 class Keyboard
 {
   public:
-    void add(const KeyEvent& event) { events.push_back(event); }
-    /// As much as one frame can be told without losing or mixing up any of it: text, or keys that write none
-    /// (Tab, Enter, Ctrl+S), which have the next frame to themselves as well, for what they do shows only
-    /// then. `text_wanted`: somebody is being written to; otherwise all keys are of the second kind.
+    void add(const KeyEvent& event) { events_.push_back(event); }
+    /// As many events as one frame can take without losing or reordering any: either text, or keys that write
+    /// none (Tab, Enter, Ctrl+S). The frame after such a key takes neither text nor new presses, because the
+    /// key's effect shows only then. `text_wanted`: a text field has the focus; else no key writes text.
     FrameKeys take(bool text_wanted);
-    bool empty() const { return events.empty(); }
+    bool empty() const { return events_.empty(); }
 
   private:
-    std::deque<KeyEvent> events;
-    bool resting = false; // the frame before was told of a key that writes nothing
+    std::deque<KeyEvent> events_;
+    bool resting_ = false; // the last frame took a key that writes no text
 };
 
 } // namespace window

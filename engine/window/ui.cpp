@@ -16,7 +16,7 @@ namespace {
 
 constexpr float text_size = 15; // pixels at scale 1
 
-/// A readable font of those most systems have; empty: none of them.
+/// First installed font of a list of common ones; empty: none is installed.
 std::filesystem::path find_font()
 {
     for (const char* path :
@@ -29,7 +29,7 @@ std::filesystem::path find_font()
     return {};
 }
 
-/// Dark, flat and quiet: the face is the brightest thing on the screen.
+/// A dark, flat style: the face is the brightest thing on the screen.
 void set_look(ImGuiStyle& style)
 {
     ImGui::StyleColorsDark(&style);
@@ -60,7 +60,7 @@ void set_look(ImGuiStyle& style)
     set(ImGuiCol_HeaderHovered, .27f, .275f, .3f);
     set(ImGuiCol_HeaderActive, .33f, .335f, .36f);
     set(ImGuiCol_CheckMark, .93f, .55f, .45f);
-    set(ImGuiCol_SliderGrab, .6f, .32f, .26f); // its value is written over it
+    set(ImGuiCol_SliderGrab, .6f, .32f, .26f); // dark enough for the value that is drawn over it
     set(ImGuiCol_SliderGrabActive, .72f, .39f, .32f);
     set(ImGuiCol_Separator, .25f, .255f, .27f);
     set(ImGuiCol_TitleBgActive, .2f, .205f, .22f);
@@ -93,17 +93,17 @@ std::uint64_t hash_of(const ImDrawData& data)
 
 } // namespace
 
-Ui::Ui(Window& shown, double scale_wanted) : window(shown), forced_scale(scale_wanted)
+Ui::Ui(Window& window, double scale) : window_(window), forced_scale_(scale)
 {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;              // panels have their places
-    io.ConfigInputTextCursorBlink = false; // a blinking cursor would draw for ever
+    io.IniFilename = nullptr;              // the program places its panels itself
+    io.ConfigInputTextCursorBlink = false; // a blinking cursor would need redraws all the time
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     io.BackendRendererName = "cicatrix";
-    ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
-    window.listen_to_keys(); // this version of ImGui loses and mixes up keys that come within a frame
+    ImGui_ImplGlfw_InitForVulkan(window_.handle(), true);
+    window_.listen_to_keys(); // this ImGui version loses and reorders keys that come within one frame
     set_scale(wanted_scale());
 }
 
@@ -121,13 +121,13 @@ float Ui::pixels_per_unit() const
 
 float Ui::wanted_scale() const
 {
-    return forced_scale > 0 ? float(forced_scale) : window.content_scale() / pixels_per_unit();
+    return forced_scale_ > 0 ? float(forced_scale_) : window_.content_scale() / pixels_per_unit();
 }
 
 void Ui::set_scale(float scale)
 {
-    current_scale = scale;
-    fonts_changed = true;
+    current_scale_ = scale;
+    fonts_changed_ = true;
     ImGuiStyle style;
     set_look(style);
     style.ScaleAllSizes(scale);
@@ -138,7 +138,7 @@ void Ui::set_scale(float scale)
     const std::filesystem::path font = find_font();
     if (font.empty() || io.Fonts->AddFontFromFileTTF(font.c_str(), text_size * scale) == nullptr) {
         ImFontConfig config;
-        config.SizePixels = 13 * scale; // a font of pixels: its own size, multiplied
+        config.SizePixels = 13 * scale; // a bitmap font of 13 px
         io.Fonts->AddFontDefault(&config);
     }
 }
@@ -160,13 +160,13 @@ void Ui::tell_keys(const FrameKeys& keys)
 void Ui::tell_mouse()
 {
     ImGuiIO& io = ImGui::GetIO();
-    if (const std::optional<ButtonChange> change = window.take_button_change();
-        change && std::size_t(change->button) < buttons.size())
+    if (const std::optional<ButtonChange> change = window_.take_button_change();
+        change && std::size_t(change->button) < buttons_.size())
     {
-        buttons[std::size_t(change->button)] = change->down;
+        buttons_[std::size_t(change->button)] = change->down;
         io.MousePos = {change->at[0], change->at[1]};
     }
-    std::ranges::copy(buttons, io.MouseDown);
+    std::ranges::copy(buttons_, io.MouseDown);
 }
 
 void Ui::begin(UiRenderer& renderer, const FrameKeys& keys)
@@ -174,19 +174,19 @@ void Ui::begin(UiRenderer& renderer, const FrameKeys& keys)
     tell_keys(keys);
     ImGui_ImplGlfw_NewFrame();
     tell_mouse();
-    if (const float scale = wanted_scale(); scale != current_scale)
+    if (const float scale = wanted_scale(); scale != current_scale_)
         set_scale(scale);
-    if (fonts_changed)
+    if (fonts_changed_)
         renderer.upload_fonts();
-    fonts_changed = false;
+    fonts_changed_ = false;
     ImGui::NewFrame();
 }
 
 const ImDrawData* Ui::end()
 {
     ImGui::Render();
-    last_hash = hash;
-    hash = hash_of(*ImGui::GetDrawData());
+    last_hash_ = hash_;
+    hash_ = hash_of(*ImGui::GetDrawData());
     return ImGui::GetDrawData();
 }
 

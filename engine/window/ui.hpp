@@ -1,5 +1,5 @@
-// Dear ImGui in a window: its context, input, fonts and look. Between begin() and end() ImGui's functions may
-// be called; what end() returns is drawn by Swapchain::show.
+// Dear ImGui in a window: context, input, fonts and style. Call ImGui's functions between begin() and end();
+// Swapchain::show draws the result of end().
 #pragma once
 #include <array>
 #include <cstdint>
@@ -14,21 +14,21 @@ namespace window {
 class Ui
 {
   public:
-    /// `scale` of text and controls; 0: the screen's own.
+    /// `scale`: of text and controls; 0: the screen's scale.
     Ui(Window& window, double scale);
     ~Ui();
     Ui(const Ui&) = delete;
     Ui& operator=(const Ui&) = delete;
 
-    /// Follows the screen's scale, which changes when the window moves to another.
+    /// Updates the scale, which changes when the window moves to another screen.
     void begin(UiRenderer& renderer, const FrameKeys& keys);
     const ImDrawData* end();
-    /// Whether the last end() returned something else than the one before.
-    bool changed() const { return last_hash != hash; }
+    /// Whether the last end() returned other draw data than the end() before.
+    bool changed() const { return last_hash_ != hash_; }
     /// Pixels of the window per unit of ImGui's coordinates.
     float pixels_per_unit() const;
-    /// Multiplies sizes given for an ordinary screen.
-    float scale() const { return current_scale; }
+    /// Factor for sizes that are given for an ordinary screen.
+    float scale() const { return current_scale_; }
 
   private:
     void tell_keys(const FrameKeys& keys);
@@ -36,12 +36,12 @@ class Ui
     float wanted_scale() const;
     void set_scale(float scale);
 
-    Window& window;
-    double forced_scale;
-    float current_scale = 0;
-    std::array<bool, 3> buttons{}; // of the mouse, as ImGui has been told
-    bool fonts_changed = true;
-    std::uint64_t hash = 0, last_hash = 0;
+    Window& window_;
+    double forced_scale_;
+    float current_scale_ = 0;
+    std::array<bool, 3> buttons_{}; // mouse buttons as reported to ImGui
+    bool fonts_changed_ = true;
+    std::uint64_t hash_ = 0, last_hash_ = 0;
 };
 
 } // namespace window

@@ -14,7 +14,7 @@ namespace window {
 
 namespace {
 
-constexpr std::uint32_t max_textures = 32; // in one frame: the fonts and a few pictures
+constexpr std::uint32_t max_textures = 32; // per frame: the fonts and a few pictures
 
 struct Scale // as in ui.vert
 {
@@ -35,7 +35,7 @@ void grow(gpu::Buffer& buffer, const gpu::Device& device, std::size_t bytes, VkB
 
 } // namespace
 
-UiRenderer::UiRenderer(const gpu::Device& used) : device(used)
+UiRenderer::UiRenderer(const gpu::Device& device) : device_(device)
 {
     try {
         make_layouts();
@@ -52,12 +52,12 @@ UiRenderer::~UiRenderer()
 
 void UiRenderer::destroy()
 {
-    for (const auto& [format, pipeline] : pipelines)
-        vkDestroyPipeline(device.handle(), pipeline, nullptr);
-    vkDestroyDescriptorPool(device.handle(), descriptors, nullptr);
-    vkDestroyPipelineLayout(device.handle(), layout, nullptr);
-    vkDestroyDescriptorSetLayout(device.handle(), set_layout, nullptr);
-    vkDestroySampler(device.handle(), sampler, nullptr);
+    for (const auto& [format, pipeline] : pipelines_)
+        vkDestroyPipeline(device_.handle(), pipeline, nullptr);
+    vkDestroyDescriptorPool(device_.handle(), descriptors_, nullptr);
+    vkDestroyPipelineLayout(device_.handle(), layout_, nullptr);
+    vkDestroyDescriptorSetLayout(device_.handle(), set_layout_, nullptr);
+    vkDestroySampler(device_.handle(), sampler_, nullptr);
 }
 
 void UiRenderer::make_layouts()
@@ -69,7 +69,7 @@ void UiRenderer::make_layouts()
                                            .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                            .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                            .maxLod = VK_LOD_CLAMP_NONE};
-    gpu::check(vkCreateSampler(device.handle(), &sampler_info, nullptr, &sampler), "create a sampler");
+    gpu::check(vkCreateSampler(device_.handle(), &sampler_info, nullptr, &sampler_), "create a sampler");
     const VkDescriptorSetLayoutBinding binding{.binding = 0,
                                                .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                                .descriptorCount = 1,
@@ -78,15 +78,15 @@ void UiRenderer::make_layouts()
                                                        VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
                                                    .bindingCount = 1,
                                                    .pBindings = &binding};
-    gpu::check(vkCreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &set_layout),
+    gpu::check(vkCreateDescriptorSetLayout(device_.handle(), &set_info, nullptr, &set_layout_),
                "create a set layout");
     const VkPushConstantRange range{.stageFlags = VK_SHADER_STAGE_VERTEX_BIT, .size = sizeof(Scale)};
     const VkPipelineLayoutCreateInfo layout_info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                                  .setLayoutCount = 1,
-                                                 .pSetLayouts = &set_layout,
+                                                 .pSetLayouts = &set_layout_,
                                                  .pushConstantRangeCount = 1,
                                                  .pPushConstantRanges = &range};
-    gpu::check(vkCreatePipelineLayout(device.handle(), &layout_info, nullptr, &layout),
+    gpu::check(vkCreatePipelineLayout(device_.handle(), &layout_info, nullptr, &layout_),
                "create a pipeline layout");
     const VkDescriptorPoolSize size{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                     .descriptorCount = max_textures};
@@ -94,30 +94,30 @@ void UiRenderer::make_layouts()
                                                .maxSets = max_textures,
                                                .poolSizeCount = 1,
                                                .pPoolSizes = &size};
-    gpu::check(vkCreateDescriptorPool(device.handle(), &pool_info, nullptr, &descriptors),
+    gpu::check(vkCreateDescriptorPool(device_.handle(), &pool_info, nullptr, &descriptors_),
                "create a descriptor pool");
 }
 
 VkPipeline UiRenderer::pipeline_for(VkFormat format)
 {
-    VkPipeline& made = pipelines[format];
+    VkPipeline& made = pipelines_[format];
     if (made)
         return made;
-    const gpu::ShaderModule vertex(device.handle(), words_of("ui.vert"), "ui.vert"),
-        fragment(device.handle(), words_of("ui.frag"), "ui.frag");
+    const gpu::ShaderModule vertex(device_.handle(), words_of("ui.vert"), "ui.vert"),
+        fragment(device_.handle(), words_of("ui.frag"), "ui.frag");
     const std::array stages{vertex.stage(VK_SHADER_STAGE_VERTEX_BIT),
                             fragment.stage(VK_SHADER_STAGE_FRAGMENT_BIT)};
     constexpr std::array<VkVertexInputAttributeDescription, 3> attributes{
         {{.location = 0, .format = VK_FORMAT_R32G32_SFLOAT, .offset = offsetof(ImDrawVert, pos)},
          {.location = 1, .format = VK_FORMAT_R32G32_SFLOAT, .offset = offsetof(ImDrawVert, uv)},
          {.location = 2, .format = VK_FORMAT_R8G8B8A8_UNORM, .offset = offsetof(ImDrawVert, col)}}};
-    made = gpu::make_raster_pipeline(device.handle(),
+    made = gpu::make_raster_pipeline(device_.handle(),
                                      {.stages = stages,
                                       .vertex_stride = sizeof(ImDrawVert),
                                       .attributes = attributes,
                                       .colors = {&format, 1},
                                       .blend = true,
-                                      .layout = layout},
+                                      .layout = layout_},
                                      "the user interface");
     return made;
 }
@@ -128,20 +128,20 @@ void UiRenderer::upload_fonts()
     int width = 0, height = 0;
     ImGuiIO& io = ImGui::GetIO();
     io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
-    vkQueueWaitIdle(device.queue()); // the last frame may still be drawing with the old ones
-    fonts = std::make_unique<gpu::Texture>(device, cv::Mat(height, width, CV_8UC4, pixels),
-                                           gpu::Encoding::Linear, false, "fonts");
-    io.Fonts->SetTexID(texture_id(*fonts));
-    io.Fonts->ClearTexData(); // the device has it now
+    vkQueueWaitIdle(device_.queue()); // the last frame may still use the old ones
+    fonts_ = std::make_unique<gpu::Texture>(device_, cv::Mat(height, width, CV_8UC4, pixels),
+                                            gpu::Encoding::Linear, false, "fonts");
+    io.Fonts->SetTexID(texture_id(*fonts_));
+    io.Fonts->ClearTexData(); // frees the CPU copy
 }
 
 void UiRenderer::upload(const ImDrawData& data)
 {
-    grow(vertices, device, std::size_t(data.TotalVtxCount) * sizeof(ImDrawVert),
+    grow(vertices_, device_, std::size_t(data.TotalVtxCount) * sizeof(ImDrawVert),
          VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-    grow(indices, device, std::size_t(data.TotalIdxCount) * sizeof(ImDrawIdx),
+    grow(indices_, device_, std::size_t(data.TotalIdxCount) * sizeof(ImDrawIdx),
          VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
-    std::byte *to_vertices = vertices.mapped().data(), *to_indices = indices.mapped().data();
+    std::byte *to_vertices = vertices_.mapped().data(), *to_indices = indices_.mapped().data();
     for (int i = 0; i < data.CmdListsCount; ++i) {
         const ImDrawList& list = *data.CmdLists[i];
         std::memcpy(to_vertices, list.VtxBuffer.Data, std::size_t(list.VtxBuffer.size_in_bytes()));
@@ -153,41 +153,41 @@ void UiRenderer::upload(const ImDrawData& data)
 
 VkDescriptorSet UiRenderer::set_for(VkImageView view)
 {
-    VkDescriptorSet& set = sets[view];
+    VkDescriptorSet& set = sets_[view];
     if (set)
         return set;
     const VkDescriptorSetAllocateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                           .descriptorPool = descriptors,
+                                           .descriptorPool = descriptors_,
                                            .descriptorSetCount = 1,
-                                           .pSetLayouts = &set_layout};
-    gpu::check(vkAllocateDescriptorSets(device.handle(), &info, &set), "allocate a descriptor set");
-    const VkDescriptorImageInfo image{sampler, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+                                           .pSetLayouts = &set_layout_};
+    gpu::check(vkAllocateDescriptorSets(device_.handle(), &info, &set), "allocate a descriptor set");
+    const VkDescriptorImageInfo image{sampler_, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                      .dstSet = set,
                                      .descriptorCount = 1,
                                      .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                      .pImageInfo = &image};
-    vkUpdateDescriptorSets(device.handle(), 1, &write, 0, nullptr);
+    vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
     return set;
 }
 
 void UiRenderer::begin(VkCommandBuffer commands, const ImDrawData& data, VkFormat format, VkExtent2D size)
 {
     upload(data);
-    sets.clear();
-    gpu::check(vkResetDescriptorPool(device.handle(), descriptors, 0), "reuse descriptors");
+    sets_.clear();
+    gpu::check(vkResetDescriptorPool(device_.handle(), descriptors_, 0), "reuse descriptors");
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_for(format));
     const VkDeviceSize offset = 0;
-    const VkBuffer vertex_buffer = vertices.handle();
+    const VkBuffer vertex_buffer = vertices_.handle();
     vkCmdBindVertexBuffers(commands, 0, 1, &vertex_buffer, &offset);
-    vkCmdBindIndexBuffer(commands, indices.handle(), 0,
+    vkCmdBindIndexBuffer(commands, indices_.handle(), 0,
                          sizeof(ImDrawIdx) == 2 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
     const VkViewport viewport{0, 0, float(size.width), float(size.height), 0, 1};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     Scale scale{{2 / data.DisplaySize.x, 2 / data.DisplaySize.y}, {}};
     scale.clip_of_origin[0] = -1 - data.DisplayPos.x * scale.clip_per_pixel[0];
     scale.clip_of_origin[1] = -1 - data.DisplayPos.y * scale.clip_per_pixel[1];
-    vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(scale), &scale);
+    vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(scale), &scale);
 }
 
 void UiRenderer::record(VkCommandBuffer commands, const ImDrawData& data, VkFormat format, VkExtent2D size)
@@ -213,7 +213,7 @@ void UiRenderer::record(VkCommandBuffer commands, const ImDrawData& data, VkForm
             const VkRect2D scissor{{left, top}, {std::uint32_t(right - left), std::uint32_t(bottom - top)}};
             vkCmdSetScissor(commands, 0, 1, &scissor);
             const VkDescriptorSet set = set_for(static_cast<VkImageView>(draw.GetTexID()));
-            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1, &set, 0,
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &set, 0,
                                     nullptr);
             vkCmdDrawIndexed(commands, draw.ElemCount, 1, first_index + draw.IdxOffset,
                              first_vertex + std::int32_t(draw.VtxOffset), 0);

@@ -1,6 +1,6 @@
-// Draws Dear ImGui's draw lists. Its own Vulkan backend, as Debian builds it, calls Vulkan's functions by
-// name and knows render passes only; ours are loaded at run time by volk, under the same names, and rendering
-// is dynamic.
+// Draws Dear ImGui's draw lists. ImGui's Vulkan backend, as Debian builds it, links Vulkan's functions and
+// supports only render passes. This program loads the functions at run time by volk, under the same names,
+// and uses dynamic rendering.
 #pragma once
 #include "engine/gpu/device.hpp"
 #include "engine/gpu/memory.hpp"
@@ -21,13 +21,13 @@ class UiRenderer
     UiRenderer(const UiRenderer&) = delete;
     UiRenderer& operator=(const UiRenderer&) = delete;
 
-    /// Uploads the fonts of the current ImGui context; again whenever they were changed.
+    /// Uploads the fonts of the current ImGui context. Call again after each change of the fonts.
     void upload_fonts();
-    /// What ImGui::Image takes for a texture, which must live until the frame that shows it is drawn.
+    /// Argument of ImGui::Image for a texture. The texture must live until the frame that shows it is drawn.
     static void* texture_id(const gpu::Texture& texture) { return texture.external().view; }
 
-    /// Inside dynamic rendering to a colour target of this format and size. What the previous call recorded
-    /// must have been executed.
+    /// Call inside dynamic rendering to a colour target of this format and size. The commands of the previous
+    /// call must have completed.
     void record(VkCommandBuffer commands, const ImDrawData& data, VkFormat format, VkExtent2D size);
 
   private:
@@ -38,15 +38,15 @@ class UiRenderer
     void make_layouts();
     void destroy();
 
-    const gpu::Device& device;
-    std::unique_ptr<gpu::Texture> fonts;
-    VkSampler sampler = VK_NULL_HANDLE;
-    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    std::map<VkFormat, VkPipeline> pipelines;
-    VkDescriptorPool descriptors = VK_NULL_HANDLE;
-    std::map<VkImageView, VkDescriptorSet> sets; // of this frame
-    gpu::Buffer vertices, indices;
+    const gpu::Device& device_;
+    std::unique_ptr<gpu::Texture> fonts_;
+    VkSampler sampler_ = VK_NULL_HANDLE;
+    VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    std::map<VkFormat, VkPipeline> pipelines_;
+    VkDescriptorPool descriptors_ = VK_NULL_HANDLE;
+    std::map<VkImageView, VkDescriptorSet> sets_; // of this frame
+    gpu::Buffer vertices_, indices_;
 };
 
 } // namespace window

@@ -12,7 +12,7 @@
 #include "base/input_error.hpp"
 #include "engine/gpu/vulkan_check.hpp"
 
-// Declared by GLFW only where Vulkan's own prototypes are, which volk replaces.
+// GLFW declares these only with Vulkan's own prototypes, which volk replaces.
 extern "C" {
 const char** glfwGetRequiredInstanceExtensions(std::uint32_t* count);
 int glfwGetPhysicalDevicePresentationSupport(VkInstance instance, VkPhysicalDevice device,
@@ -41,9 +41,9 @@ Window& self(GLFWwindow* window)
     return *static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
-Window* the_window = nullptr; // for Xlib's handler, which is given no pointer of ours
+Window* the_window = nullptr; // for Xlib's error handler, which takes no user pointer
 
-/// Xlib ends the process when this returns; its own last words are left out by not returning.
+/// Xlib's I/O error handler. It ends the process itself, before Xlib prints its own message.
 int display_lost(void*)
 {
     std::string cure = "open the window again on a running display";
@@ -54,7 +54,7 @@ int display_lost(void*)
     ::_exit(1);
 }
 
-/// GLFW loads Xlib at run time, and so do we; on other window systems there is none and nothing to do.
+/// Installs the handler. GLFW loads Xlib at run time; on other window systems Xlib is not loaded.
 void watch_display()
 {
     void* xlib = ::dlopen("libX11.so.6", RTLD_NOW | RTLD_NOLOAD);
@@ -75,8 +75,8 @@ Window::Window(const std::string& title, std::array<int, 2> size)
                          fmt::format("set DISPLAY (or log in to a desktop); {}", without_window));
     watch_display();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-    window = glfwCreateWindow(size[0], size[1], title.c_str(), nullptr, nullptr);
-    if (window == nullptr) {
+    window_ = glfwCreateWindow(size[0], size[1], title.c_str(), nullptr, nullptr);
+    if (window_ == nullptr) {
         const std::string reason = last_glfw_error();
         glfwTerminate();
         throw InputError("display", fmt::format("no window can be opened: {}", reason), without_window);
@@ -88,28 +88,28 @@ Window::Window(const std::string& title, std::array<int, 2> size)
 Window::~Window()
 {
     the_window = nullptr;
-    glfwDestroyWindow(window);
+    glfwDestroyWindow(window_);
     glfwTerminate();
 }
 
 void Window::install_callbacks()
 {
-    glfwSetWindowUserPointer(window, this);
-    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { self(w).damaged = true; });
-    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { self(w).damaged = true; });
-    glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { self(w).damaged = true; });
-    glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { self(w).damaged = true; });
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { self(w).damaged_ = true; });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self(w).damaged_ = true; });
+    glfwSetWindowIconifyCallback(window_, [](GLFWwindow* w, int) { self(w).damaged_ = true; });
+    glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) { self(w).damaged_ = true; });
     listen_to_keys();
-    // What GLFW tells when asked is where the pointer is now, not where it was at an event.
-    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
-        self(w).pointer = {float(x), float(y)};
+    // Stored at each event, because glfwGetCursorPos returns only the current position.
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+        self(w).pointer_ = {float(x), float(y)};
     });
-    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
-        self(w).button_changes.push_back({button, action == GLFW_PRESS, self(w).pointer});
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
+        self(w).button_changes_.push_back({button, action == GLFW_PRESS, self(w).pointer_});
     });
-    glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+    glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
         for (int i = 0; i < count; ++i)
-            self(w).dropped.emplace_back(paths[i]);
+            self(w).dropped_.emplace_back(paths[i]);
     });
 }
 
@@ -132,7 +132,7 @@ bool Window::can_present(VkInstance instance, VkPhysicalDevice device, std::uint
 VkSurfaceKHR Window::make_surface(VkInstance instance) const
 {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
-    gpu::check(glfwCreateWindowSurface(instance, window, nullptr, &surface), "draw to the window");
+    gpu::check(glfwCreateWindowSurface(instance, window_, nullptr, &surface), "draw to the window");
     return surface;
 }
 
@@ -141,35 +141,35 @@ std::array<std::uint32_t, 2> Window::size() const
     if (minimised())
         return {0, 0};
     int width = 0, height = 0;
-    glfwGetFramebufferSize(window, &width, &height);
+    glfwGetFramebufferSize(window_, &width, &height);
     return {std::uint32_t(width), std::uint32_t(height)};
 }
 
 bool Window::minimised() const
 {
-    return glfwGetWindowAttrib(window, GLFW_ICONIFIED) == GLFW_TRUE;
+    return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE;
 }
 
 float Window::content_scale() const
 {
     float x = 1, y = 1;
-    glfwGetWindowContentScale(window, &x, &y);
+    glfwGetWindowContentScale(window_, &x, &y);
     return x;
 }
 
 bool Window::close_wanted() const
 {
-    return glfwWindowShouldClose(window) == GLFW_TRUE;
+    return glfwWindowShouldClose(window_) == GLFW_TRUE;
 }
 
 void Window::keep_open()
 {
-    glfwSetWindowShouldClose(window, GLFW_FALSE);
+    glfwSetWindowShouldClose(window_, GLFW_FALSE);
 }
 
 void Window::set_title(const std::string& title)
 {
-    glfwSetWindowTitle(window, title.c_str());
+    glfwSetWindowTitle(window_, title.c_str());
 }
 
 void Window::wait(std::optional<double> seconds)
@@ -189,38 +189,38 @@ void Window::wake()
 
 bool Window::take_damaged()
 {
-    return std::exchange(damaged, false);
+    return std::exchange(damaged_, false);
 }
 
 void Window::listen_to_keys()
 {
-    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
         using enum KeyEvent::Kind;
         KeyEvent event{action == GLFW_PRESS ? Down : action == GLFW_REPEAT ? Repeat : Up, key};
-        // A letter by what it writes, not by its place: Ctrl+Z is where the user's keyboard has its Z.
+        // Letters by character, not by key position, so that Ctrl+Z is the key Z of the user's layout.
         const char* name = glfwGetKeyName(key, scancode);
         const bool letter = name && name[0] >= 'a' && name[0] <= 'z' && name[1] == 0;
         event.press = {letter ? name[0] - 'a' + GLFW_KEY_A : key, (mods & GLFW_MOD_CONTROL) != 0,
                        (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_ALT) != 0};
-        self(w).keyboard.add(event);
+        self(w).keyboard_.add(event);
     });
-    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
-        self(w).keyboard.add({.kind = KeyEvent::Kind::Text, .text = character});
+    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned character) {
+        self(w).keyboard_.add({.kind = KeyEvent::Kind::Text, .text = character});
     });
 }
 
 std::optional<ButtonChange> Window::take_button_change()
 {
-    if (button_changes.empty())
+    if (button_changes_.empty())
         return std::nullopt;
-    const ButtonChange change = button_changes.front();
-    button_changes.pop_front();
+    const ButtonChange change = button_changes_.front();
+    button_changes_.pop_front();
     return change;
 }
 
 std::vector<std::filesystem::path> Window::take_dropped()
 {
-    return std::exchange(dropped, {});
+    return std::exchange(dropped_, {});
 }
 
 } // namespace window

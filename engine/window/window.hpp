@@ -1,9 +1,8 @@
-// A window on the desktop (GLFW): its events, its size in pixels, files dropped on it. One per process. Opens
-// before there is a device, which must offer what instance_extensions(), swapchain_extension and
-// can_present() ask for (DeviceWishes).
+// A window on the desktop (GLFW): its events, its size in pixels, files dropped on it. One per process. Open
+// it before the device, which must meet the requirements of instance_extensions(), swapchain_extension and
+// can_present() (DeviceWishes).
 //
-// A display that goes away while the window is open ends the process with one line: X11 leaves no way to go
-// on.
+// When the display is lost, the process ends with a one-line message: X11 allows no other way.
 #pragma once
 #include "engine/window/keyboard.hpp"
 
@@ -25,7 +24,7 @@ struct ButtonChange
 {
     int button = 0; // GLFW_MOUSE_BUTTON_...
     bool down = false;
-    std::array<float, 2> at{}; // where the pointer was, screen coordinates in the window
+    std::array<float, 2> at{}; // pointer position, screen coordinates in the window
 };
 
 class Window
@@ -39,55 +38,55 @@ class Window
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    /// Throws base::InputError when Vulkan cannot draw to this display at all.
+    /// Throws base::InputError when Vulkan cannot draw to this display.
     std::vector<const char*> instance_extensions() const;
-    /// Whether a device's queues can show pictures in this window; for DeviceWishes::presents.
+    /// Whether a queue family can present to windows of this display; for DeviceWishes::presents.
     static bool can_present(VkInstance instance, VkPhysicalDevice device, std::uint32_t queue_family);
     VkSurfaceKHR make_surface(VkInstance instance) const;
 
-    GLFWwindow* handle() const { return window; }
+    GLFWwindow* handle() const { return window_; }
     /// Pixels; zero while minimised.
     std::array<std::uint32_t, 2> size() const;
     bool minimised() const;
-    /// Pixels per unit of text: 1 on ordinary screens, 2 on those with twice the density.
+    /// Scale of text: 1 on ordinary screens, 2 on screens of twice the pixel density.
     float content_scale() const;
     bool close_wanted() const;
-    void keep_open(); // what was wanted is not
+    void keep_open(); // cancels the request to close
     void set_title(const std::string& title);
 
-    /// Returns after at least one event; with `seconds`, at the latest then. 0: does not wait.
+    /// Returns after at least one event, or after `seconds`. 0: handles pending events without waiting.
     void wait(std::optional<double> seconds = std::nullopt);
-    /// Ends a wait. From any thread.
+    /// Ends wait(). May be called from any thread.
     static void wake();
 
-    /// Whether what the window shows must be drawn anew: its size changed, or another window no longer hides
-    /// it. Asking clears it.
+    /// Whether the window must be redrawn because its size changed or another window no longer hides it.
+    /// Clears the flag.
     bool take_damaged();
-    /// What this frame is told of the keyboard (Keyboard::take); the rest is for the next ones.
-    FrameKeys take_keys(bool text_wanted) { return keyboard.take(text_wanted); }
-    /// The next press or release of a mouse button, to be taken one a frame: on a slow device the pointer is
-    /// elsewhere by the time of the frame that sees it.
+    /// Keyboard input of this frame (Keyboard::take); later frames take the rest.
+    FrameKeys take_keys(bool text_wanted) { return keyboard_.take(text_wanted); }
+    /// The next press or release of a mouse button, with the pointer position at that event: on a slow device
+    /// the pointer has moved on by the next frame. Take one per frame.
     std::optional<ButtonChange> take_button_change();
-    /// Whether there is something left to take.
-    bool has_input() const { return !keyboard.empty() || !button_changes.empty(); }
-    /// Receives keys again after somebody else has asked GLFW for them.
+    /// Whether keys or button changes are left to take.
+    bool has_input() const { return !keyboard_.empty() || !button_changes_.empty(); }
+    /// Installs the key callbacks again after other code has replaced them.
     void listen_to_keys();
     /// Files dropped on the window since the last call.
     std::vector<std::filesystem::path> take_dropped();
 
-    /// Called when the display is lost, just before the process ends: saves what it can and returns how to go
-    /// on, for the user. Must not throw.
+    /// Called when the display is lost, just before the process ends. Saves the user's work and returns
+    /// advice for the error message. Must not throw.
     std::function<std::string()> on_display_lost;
 
   private:
     void install_callbacks();
 
-    GLFWwindow* window = nullptr;
-    bool damaged = true;
-    Keyboard keyboard;
-    std::deque<ButtonChange> button_changes;
-    std::array<float, 2> pointer{}; // after the events so far
-    std::vector<std::filesystem::path> dropped;
+    GLFWwindow* window_ = nullptr;
+    bool damaged_ = true;
+    Keyboard keyboard_;
+    std::deque<ButtonChange> button_changes_;
+    std::array<float, 2> pointer_{}; // at the last event
+    std::vector<std::filesystem::path> dropped_;
 };
 
 } // namespace window

@@ -388,8 +388,9 @@ TEST_F(ExecutorTest, AWrongDeclarationNamesAllMistakesAndHarmsNothing)
         executor.run(bad);
         FAIL() << "nothing was thrown";
     } catch (const std::logic_error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("pass show: samples orphan, which nobody writes"));
-        EXPECT_THAT(error.what(), HasSubstr("pass fill: shader test_fill.comp knows no colour"));
+        EXPECT_THAT(error.what(), HasSubstr("pass show: samples orphan, which no pass writes"));
+        EXPECT_THAT(error.what(),
+                    HasSubstr("pass fill: shader test_fill.comp has no binding or constant colour"));
     }
     EXPECT_THAT(states(executor.run(good)), ElementsAre("fill skipped: unchanged"));
 }

@@ -34,10 +34,10 @@ TEST(GraphCheck, NamesEveryMistakeAtOnce)
     own.dispatch(0, 8);
     graph.readback("picture", orphan);
     const std::string text = mistakes(graph);
-    EXPECT_THAT(text, HasSubstr("pass own: samples orphan, which nobody writes"));
+    EXPECT_THAT(text, HasSubstr("pass own: samples orphan, which no pass writes"));
     EXPECT_THAT(text, HasSubstr("pass own: writes albedo, which is imported"));
     EXPECT_THAT(text, HasSubstr("pass own: dispatches 0 x 8 invocations"));
-    EXPECT_THAT(text, HasSubstr("readback picture: of orphan, which nobody writes"));
+    EXPECT_THAT(text, HasSubstr("readback picture: uses orphan, which no pass writes"));
 }
 
 TEST(GraphCheck, FindsWritersOnACycle)

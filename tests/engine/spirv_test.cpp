@@ -166,8 +166,8 @@ TEST(Bindings, EveryMistakeIsNamed)
             "pass fill: shader test_fill.comp wants 16 bytes for params and is given 4",
             "pass fill: shader test_fill.comp wants elements of 8 bytes for Offsets and is given 4 bytes",
             "pass fill: shader test_fill.comp is given constant gain with another type",
-            "pass fill: shader test_fill.comp knows no speed", "pass none: there is no shader missing.comp",
-            "pass stem: test_quad is not a compute shader"));
+            "pass fill: shader test_fill.comp has no binding or constant speed",
+            "pass none: there is no shader missing.comp", "pass stem: test_quad is not a compute shader"));
 }
 
 TEST(Bindings, ADrawLooksInItsPassForWhatItIsNotGiven)
@@ -186,11 +186,11 @@ TEST(Bindings, ADrawLooksInItsPassForWhatItIsNotGiven)
                     pass.draw("test_mesh");
                 }),
                 ElementsAre("pass show: shader test_quad is given no uniform for Tint",
-                            "pass show: shader test_quad knows no tint",
+                            "pass show: shader test_quad has no binding or constant tint",
                             "pass show: shader test_mesh is given no uniform for place",
                             "pass show: shader test_mesh is given no uniform for Paint",
                             "pass show: draw test_mesh has no mesh, and its shader reads position",
-                            "pass show: no shader of its draws knows exposure"));
+                            "pass show: no shader of its draws has a binding or constant exposure"));
 }
 
 TEST(Bindings, ImagesMustHaveTheFormatAndNumberTheShaderWrites)

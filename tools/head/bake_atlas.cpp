@@ -24,12 +24,12 @@ Box uv_box(const CutMesh& mesh, const std::vector<CutMesh::Triangle>& triangles)
     return box;
 }
 
-/// Draws what `placement` shows of the painting into columns `from` to `to` of `picture`.
+/// Draws the painting, mapped by `placement`, into columns `from` to `to` - 1 of `picture`.
 void place(const cv::Mat3b& painting, const Placement& placement, int from, int to, cv::Mat3b& picture)
 {
     const glm::dmat2 back = glm::inverse(placement.linear);
     const auto painted_at =
-        [&](glm::dvec2 texel) { // texel x has its centre at (x + .5) / size in both pictures
+        [&](glm::dvec2 texel) { // the centre of texel x is (x + .5) / size in both pictures
             const glm::dvec2 uv =
                 back * ((texel + 0.5) / glm::dvec2(picture.cols, picture.rows) - placement.offset);
             return glm::dvec2(uv.x, 1 - uv.y) * glm::dvec2(painting.cols, painting.rows) - 0.5;
@@ -42,8 +42,8 @@ void place(const cv::Mat3b& painting, const Placement& placement, int from, int 
                    cv::BORDER_REPLICATE);
 }
 
-/// Blank: the colour of the painting's first corner all around a texel, give or take the enlargement's
-/// ringing.
+/// Fills blank areas: texels surrounded by the colour of the painting's first corner, with a tolerance for
+/// ringing from the enlargement.
 void fill_blank(cv::Mat3b& picture, const cv::Vec3b& blank)
 {
     constexpr int tolerance = 3, surroundings = 9; // of 255; px
@@ -52,19 +52,19 @@ void fill_blank(cv::Mat3b& picture, const cv::Vec3b& blank)
     cv::inRange(picture, value - off, value + off, is_blank);
     const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(surroundings, surroundings));
     cv::morphologyEx(is_blank, is_blank, cv::MORPH_OPEN, disc);
-    cv::dilate(is_blank, is_blank, disc); // the frayed edge of the paint goes, too
+    cv::dilate(is_blank, is_blank, disc); // also removes the frayed edge of the paint
     cv::Mat3f filled;
     picture.convertTo(filled, CV_32F);
     fill_uncovered(filled, ~is_blank);
     filled.convertTo(picture, CV_8U);
 }
 
-/// Skin reflects less blue than red, always; paint that does otherwise keeps its lightness and takes the
-/// colour of skin.
+/// Skin always reflects less blue than red. Paint with too much blue keeps its luma and gets the colour of
+/// skin.
 void tone_down_blue(cv::Mat3b& picture)
 {
-    constexpr float skin[] = {1.21f, 0.96f, 0.82f}; // sRGB against luma
-    constexpr float first = 0.76f, last = 0.87f;    // of blue to red, where toning begins and is complete
+    constexpr float skin[] = {1.21f, 0.96f, 0.82f}; // sRGB relative to luma
+    constexpr float first = 0.76f, last = 0.87f;    // blue / red where toning begins and is complete
     for (cv::Vec3b& texel : picture) {
         const float red = texel[0], green = texel[1], blue = texel[2];
         const float share = std::clamp((blue / std::max(red, 1.0f) - first) / (last - first), 0.0f, 1.0f);
@@ -86,8 +86,7 @@ SkinAtlas lay_out_skin(const CutMesh& bust, int size)
     atlas.head.linear = scale * glm::dmat2(1, 0, 0, -1);
     atlas.head.offset = glm::dvec2(margin) - scale * glm::dvec2(head.low.x, -head.high.y);
     atlas.border = 2 * margin + scale * (head.high.x - head.low.x);
-    atlas.bust.linear =
-        scale * glm::dmat2(0, 1, 1, 0); // x grows with v, y with u: a quarter turn, not a mirror image
+    atlas.bust.linear = scale * glm::dmat2(0, 1, 1, 0); // x grows with v (up), y with u: a quarter turn
     atlas.bust.offset =
         glm::dvec2(atlas.border + margin, margin) - scale * glm::dvec2(torso.low.y, torso.low.x);
     return atlas;

@@ -1,4 +1,4 @@
-// Where the parts of the figure's skin lie in the head's own picture, and the painting of that picture.
+// Layout of the figure's skin charts in the head's skin picture, and the painting of that picture.
 #pragma once
 #include <glm/glm.hpp>
 #include <opencv2/core.hpp>
@@ -7,7 +7,7 @@
 
 namespace head_tool {
 
-/// An affine map from the figure's texture coordinates (v up) to a picture of ours (0..1, v down).
+/// An affine map from the figure's texture coordinates (v up) to those of our picture (0..1, v down).
 struct Placement
 {
     glm::dmat2 linear{1.0};
@@ -15,22 +15,22 @@ struct Placement
     glm::dvec2 operator()(glm::dvec2 uv) const { return linear * uv + offset; }
 };
 
-/// The figure's own pictures, kept as they are.
+/// For the figure's own pictures: only flips v.
 inline const Placement as_painted{glm::dmat2(1, 0, 0, -1), glm::dvec2(0, 1)};
 
-/// The head's chart fills the picture's height on the left, the bust's, turned upright, the right; both at
-/// the same scale.
+/// The head's chart fills the picture's height on the left, the bust's chart, turned upright, the right part.
+/// Both have the same scale.
 struct SkinAtlas
 {
-    int size = 0; // px, both ways
+    int size = 0; // px, width and height
     Placement head, bust;
-    double border = 0; // u between the two
+    double border = 0; // u between the two charts
 };
 
 SkinAtlas lay_out_skin(const CutMesh& bust, int size);
 
-/// Draws the parts of the figure's painted skin that the atlas shows. What the painter left blank is filled
-/// in from around, and paint on the lids that no skin has is toned down.
+/// Draws the parts of the figure's painted skin that the atlas contains. Fills blank areas from their
+/// surroundings and reduces the blue of painted lids.
 cv::Mat3b paint_skin(const SkinAtlas& atlas, const cv::Mat3b& painting);
 
 } // namespace head_tool

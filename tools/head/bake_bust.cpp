@@ -6,15 +6,15 @@
 namespace head_tool {
 namespace {
 
-/// How far a point lies above the base of the bust: a plane through the upper chest, tilted up to the back,
-/// with the shoulders rounded off.
+/// Height of a point above the bust's base in dm: a plane through the upper chest that rises to the back
+/// and curves up to the shoulders.
 double above_base(glm::dvec3 p)
 {
     constexpr double height = 5.62, tilt = 0.25, shoulder = 0.16; // dm, slope, dm^-1
     return p.y - height - tilt * (0.3 - p.z) - shoulder * p.x * p.x;
 }
 
-/// The faces whose every corner satisfies `wanted`, with all the vertices and coordinates.
+/// The faces with all corners satisfying `wanted`; keeps all vertices and texture coordinates.
 template <typename Wanted>
 QuadMesh part_of(const QuadMesh& mesh, Wanted&& wanted)
 {
@@ -26,7 +26,7 @@ QuadMesh part_of(const QuadMesh& mesh, Wanted&& wanted)
     return part;
 }
 
-/// Cuts triangles along the base. Neighbours share the vertices on the cut.
+/// Cuts triangles along the base. Neighbouring triangles share the vertices on the cut.
 class Cutter
 {
   public:
@@ -54,7 +54,7 @@ class Cutter
     CutMesh::Corner between(CutMesh::Corner a, CutMesh::Corner b)
     {
         if (a.vertex > b.vertex)
-            std::swap(a, b); // the same arithmetic from both sides
+            std::swap(a, b); // the same rounding for both neighbours
         const double t = above(a) / (above(a) - above(b));
         const auto [vertex, new_vertex] =
             vertices_.try_emplace({a.vertex, b.vertex}, static_cast<std::uint32_t>(mesh_.positions.size()));
@@ -81,11 +81,11 @@ std::array<CutMesh::Triangle, 2> halves(const QuadMesh::Face& face)
 
 CutMesh cut_bust(const QuadMesh& body)
 {
-    constexpr double margin = 0.8; // dm below the cut that refinement may look at
+    constexpr double margin = 0.8; // dm kept below the cut, for the refinement at the cut
     const QuadMesh coarse = part_of(body, [](glm::dvec3 p) { return above_base(p) > -margin; });
     const auto charts = texture_charts(coarse);
-    // The head's chart holds the top of the skull. The torso's reaches below the cut; what is left lies
-    // inside the head.
+    // The head's chart contains the top of the skull. The torso's charts reach below the cut. All other
+    // charts lie inside the head.
     std::vector<bool> is_torso(coarse.faces.size(), false);
     std::uint32_t head = 0;
     double top = -1e9;

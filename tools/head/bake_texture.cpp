@@ -11,7 +11,7 @@ double cross(glm::dvec2 a, glm::dvec2 b)
     return a.x * b.y - a.y * b.x;
 }
 
-/// Halves a picture; each texel is the weighted mean of up to four.
+/// Halves the size of a picture; each texel is the weighted mean of up to four texels.
 void push(const cv::Mat3f& fine, const cv::Mat1f& fine_weight, cv::Mat3f& coarse, cv::Mat1f& coarse_weight)
 {
     coarse = cv::Mat3f((fine.rows + 1) / 2, (fine.cols + 1) / 2, cv::Vec3f(0, 0, 0));
@@ -68,7 +68,7 @@ cv::Mat3f rasterise(std::span<const glm::vec2> uvs, std::span<const std::uint32_
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
         glm::dvec2 p[3];
         for (int c = 0; c < 3; ++c)
-            p[c] = glm::dvec2(uvs[indices[i + c]]) * scale - 0.5; // texel centres at whole numbers
+            p[c] = glm::dvec2(uvs[indices[i + c]]) * scale - 0.5; // texel centres at integers
         const double area = cross(p[1] - p[0], p[2] - p[0]);
         if (area == 0)
             continue;
@@ -80,8 +80,7 @@ cv::Mat3f rasterise(std::span<const glm::vec2> uvs, std::span<const std::uint32_
                  x <= std::min(size.width - 1.0, high.x); ++x) {
                 const glm::dvec2 at(x, y);
                 const double a = cross(p[1] - at, p[2] - at) / area, b = cross(p[2] - at, p[0] - at) / area;
-                constexpr double edge =
-                    -1e-9; // texels on a shared edge belong to both triangles, none to neither
+                constexpr double edge = -1e-9; // a texel on a shared edge belongs to both triangles
                 if (a < edge || b < edge || 1 - a - b < edge)
                     continue;
                 const glm::dvec3 value = a * glm::dvec3(values[indices[i]]) +

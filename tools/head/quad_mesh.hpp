@@ -1,4 +1,4 @@
-// A mesh of four-cornered faces with texture coordinates of its own at every corner, and its refinement.
+// A mesh of quads with separate texture coordinates at every corner, and its subdivision.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -19,11 +19,11 @@ struct QuadMesh
     std::vector<Face> faces;
 };
 
-/// One step of Catmull & Clark 1978 on the positions; open edges stay curves of their own, texture
-/// coordinates are interpolated linearly. Face f becomes faces 4f .. 4f+3, one at each of its corners.
+/// One step of Catmull & Clark 1978 on the positions. Open edges become B-spline curves; texture coordinates
+/// are interpolated linearly. Face f becomes faces 4f .. 4f+3, one at each of its corners.
 QuadMesh subdivide(const QuadMesh& mesh);
 
-/// Numbers each face by its texture chart: the faces connected through shared texture coordinates.
+/// Number of each face's texture chart. Faces connected by shared texture coordinates form a chart.
 std::vector<std::uint32_t> texture_charts(const QuadMesh& mesh);
 
 } // namespace head_tool

@@ -1,5 +1,5 @@
-// `cicatrix bake --calibrate`: fits the calibrated model to the photon walk on one half of a set of stacks
-// like skin and says how far it is off on the other.
+// `cicatrix-lab calibrate`: fits the calibrated model to the photon walk on one half of a set of skin-like
+// stacks and reports its error on the other half.
 #include <cmath>
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
@@ -19,7 +19,7 @@ namespace {
 
 using Coefficients = std::array<double, 4>;
 
-// Stacks like skin, wounded or not. Those with an even number are for the fit.
+/// Stacks like intact and wounded skin. Those with an even index are for the fit.
 std::vector<optics::Stack> calibration_stacks()
 {
     std::mt19937 random(5);
@@ -49,10 +49,10 @@ std::vector<optics::Stack> calibration_stacks()
 struct Walked
 {
     std::vector<optics::Stack> stacks;
-    std::vector<double> truth; // R without the first surface
+    std::vector<double> truth; // reflectance without specular reflection
 };
 
-/// Of every other stack, from `first` on.
+/// Over every second stack, from `first` on.
 double rms_error(const Walked& walked, std::size_t first, optics::ReflectanceModel model,
                  const optics::ReflectanceOptions& options = {})
 {
@@ -67,21 +67,21 @@ double rms_error(const Walked& walked, std::size_t first, optics::ReflectanceMod
 class FitError final : public cv::MinProblemSolver::Function
 {
   public:
-    explicit FitError(const Walked& on) : walked(on) {}
+    explicit FitError(const Walked& walked) : walked_(walked) {}
     int getDims() const override { return 4; }
     double calc(const double* x) const override
     {
         const Coefficients c{x[0], x[1], x[2], x[3]};
         if (std::ranges::min(c) < 0 || c[2] < c[3])
-            return 1; // no reflectance is that far off
-        return rms_error(walked, 0, optics::ReflectanceModel::Calibrated, {.calibration = c});
+            return 1; // larger than any error of a reflectance
+        return rms_error(walked_, 0, optics::ReflectanceModel::Calibrated, {.calibration = c});
     }
 
   private:
-    const Walked& walked;
+    const Walked& walked_;
 };
 
-/// Downhill simplex from Eddington's coefficients, again from where it ended until that gains nothing.
+/// Downhill simplex from Eddington's coefficients; restarts from the result until the error no longer falls.
 Coefficients fit(const Walked& walked)
 {
     cv::Mat1d x = (cv::Mat1d(1, 4) << .75, .3, 2, .1);

@@ -1,4 +1,4 @@
-// The published values that the reference models are held against (docs/optics.md, section 7).
+// Compares the reference models with published values (docs/optics.md, section 7).
 #include <cmath>
 #include <fmt/ostream.h>
 #include <limits>
@@ -17,9 +17,9 @@ struct Case
     std::string name;
     optics::Stack stack;
     optics::Incidence incidence;
-    std::optional<double> r, t;                                 // published
+    std::optional<double> r, t;                                 // published; none: unknown
     double tolerance;                                           // of adding-doubling
-    optics::Quadrature quadrature = optics::Quadrature::Smooth; // what the published value was computed with
+    optics::Quadrature quadrature = optics::Quadrature::Smooth; // of the published value
 };
 
 optics::Stack plate(double albedo, double optical_depth, double g, double n)
@@ -52,8 +52,7 @@ std::vector<Case> published_cases()
         {"Prahl 1995, a .99 b 10 g .76", plate(.99, 10, .76, 1.4), optics::Incidence::Diffuse, .43099, .28563,
          1e-3},
     };
-    // Prahl's half spaces carry the error of his sixteen angles, two tenths of a thousandth: they are met
-    // with his quadrature.
+    // Prahl's half spaces have the error of his sixteen angles, 2e-4; his quadrature reproduces them.
     for (const auto& [albedo, r] : {std::pair{.8, .18095}, {.95, .38711}, {.99, .63156}})
         cases.push_back({fmt::format("Prahl 1995, half space a {}", albedo),
                          {{{1 - albedo, albedo, 0, 1.4, infinity}}, 1, 1},
@@ -111,7 +110,7 @@ bool check_reflectance(const optics::ReflectanceOptions& options, std::ostream& 
             std::sqrt(walk.t * (1 - walk.t) / static_cast<double>(options.photons)); // upper bound
         const auto line = [&](std::string_view quantity, std::optional<double> known, double a, double s,
                               double w, double error) {
-            // The published digits are themselves rounded; without one the two models must agree.
+            // The published values are rounded. Without one, the two models must agree.
             const double z = (w - known.value_or(a)) / std::max(error, 1e-5);
             const bool passed =
                 known

@@ -28,13 +28,13 @@ std::shared_ptr<TableOptions> add_table_options(CLI::App& command)
         ->capture_default_str()
         ->type_name("TISSUE.json");
     scene::add_model_option(command, options->model);
-    command.add_option("--size", options->size, "Texels a side of the table")
+    command.add_option("--size", options->size, "Texels per side of the table")
         ->transform(base::whole_number_from(2, 1024))
         ->capture_default_str();
     command.add_option("--last-day", options->last_day, "Last day of the table")
         ->check(base::number_from(1, 3650))
         ->capture_default_str();
-    command.add_option("--out", options->out, "Folder to write")->capture_default_str();
+    command.add_option("--out", options->out, "Output folder")->capture_default_str();
     command
         .add_option("--photons", options->reflectance_options.photons, "Photons per colour of the reference")
         ->transform(base::whole_number_from(100, 1e10))
@@ -57,7 +57,7 @@ void print_ward_albedo_table()
         }
 }
 
-/// Replaces what stands between "<!-- table NAME -->" and "<!-- end -->" by the table.
+/// Replaces the text between "<!-- table NAME -->" and "<!-- end -->" by the table.
 std::string with_tables(std::string document, const std::string& where)
 {
     for (const auto& [name, table] : scene::field_documentation()) {
@@ -66,7 +66,7 @@ std::string with_tables(std::string document, const std::string& where)
         const std::size_t last = first == std::string::npos ? first : document.find(end, first);
         if (last == std::string::npos)
             throw base::InputError(
-                where, fmt::format("has no place for the table of {}", name),
+                where, fmt::format("has no markers for the table of {}", name),
                 fmt::format("write a line {} and below it {}", begin.substr(0, begin.size() - 1), end));
         document.replace(first + begin.size(), last - first - begin.size(), table);
     }
@@ -110,15 +110,14 @@ void add_check_reflectance(CLI::App& program)
 void add_ward_albedo(CLI::App& program)
 {
     CLI::App* command = program.add_subcommand(
-        "ward-albedo",
-        "Print the share of light that the three forms of Ward's lobe return, by slope and incidence");
+        "ward-albedo", "Print the albedo of the three forms of Ward's lobe, by slope and incidence");
     command->callback([] { print_ward_albedo_table(); });
 }
 
 void add_scene_fields(CLI::App& program)
 {
     CLI::App* command = program.add_subcommand(
-        "scene-fields", "Print the tables of a scene's fields, or put them into docs/scene.md");
+        "scene-fields", "Print the tables of a scene's fields, or insert them into docs/scene.md");
     auto document = std::make_shared<std::string>();
     command->add_option("document", *document, "Replace the tables in this file")->type_name("FILE.md");
     command->callback([document] {

@@ -1,5 +1,5 @@
-// Every model of the ladder against the photon walk: error and cost; the table's size; the presets against
-// the skin they stand for.
+// Error and cost of all reflectance models against the photon walk; errors of tables by size; the presets
+// against measured skin.
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -44,7 +44,7 @@ double rms(const base::Color& difference)
     return cv::norm(difference) / std::sqrt(3.0);
 }
 
-// The colour and what one channel costs; cheap models are repeated until the clock can see them.
+/// The colour and its time per channel; cheap models are repeated until the clock can resolve them.
 Measured measure(const optics::SkinLayers& tissue, optics::ReflectanceModel model,
                  const optics::ReflectanceOptions& options)
 {
@@ -78,7 +78,7 @@ std::vector<MeasuredStack> measure_models(const optics::ReflectanceOptions& opti
     for (const auto& [stack_name, tissue] : stacks) {
         progress.show(stack_name);
         optics::ReflectanceOptions walk =
-            options; // `photons` are for the colour: a spectrum's channels share them
+            options; // `photons` counts 3 channels; a spectrum's channels share them
         walk.photons = std::max<std::uint64_t>(1000, options.photons * 3 / tissue.channels());
         const Measured reference = measure(tissue, optics::ReflectanceModel::MonteCarlo, walk);
         MeasuredStack stack{stack_name, {}};
@@ -104,7 +104,7 @@ struct Place
     double depth, day;
 };
 
-// Evenly over both parts of the table.
+/// Random places in both parts of the table; denser towards depth 0 and day 0.
 std::vector<Place> random_places(unsigned seed, shared::uint count, const shared::LutAxes& axes)
 {
     std::mt19937 random(seed);
@@ -117,7 +117,7 @@ std::vector<Place> random_places(unsigned seed, shared::uint count, const shared
     return places;
 }
 
-// The tissue of each place, on its very day, by a model.
+/// Colour of the tissue at each place, computed by a model without a table.
 std::vector<base::Color> direct_colors(const optics::HealingTissue& tissue, const std::vector<Place>& places,
                                        optics::ReflectanceModel model, optics::ReflectanceOptions options)
 {
@@ -125,7 +125,7 @@ std::vector<base::Color> direct_colors(const optics::HealingTissue& tissue, cons
     for (const Place& place : places) {
         const optics::SkinLayers layers =
             optics::layers_at(wound::tissue_on(tissue, place.part, place.day), place.depth);
-        optics::ReflectanceOptions shared_photons = options; // a spectrum's channels share them
+        optics::ReflectanceOptions shared_photons = options; // the channels of a spectrum share them
         shared_photons.photons = std::max<std::uint64_t>(1000, options.photons * 3 / layers.channels());
         colors.push_back(optics::tissue_color(layers, model, shared_photons));
     }
@@ -211,8 +211,8 @@ ordered_json measure_table_against_walk(const TableOptions& options)
             {"worst", error.worst}};
 }
 
-/// Colour of a skin preset beside the skin it was fitted to, by model, and what the three-wavelength shortcut
-/// costs.
+/// Colour of each skin preset by model, the measured skin it was fitted to, and the error of using only three
+/// wavelengths.
 ordered_json measure_presets()
 {
     ordered_json presets = ordered_json::array();
@@ -301,7 +301,7 @@ void print_table_sizes(const ordered_json& sizes, std::ostream& out)
     }
 }
 
-// Mean cost per channel and error over all stacks of each model. The reference has no error to show.
+/// Mean cost per channel and rms error over all stacks of each model except the reference.
 struct ModelCost
 {
     std::string name;
@@ -334,7 +334,7 @@ base::Chart cost_chart(const std::vector<ModelCost>& costs)
         cost.push_back(model.microseconds);
         error.push_back(model.rms_error);
     }
-    base::Series frontier{.legend = "no other model is cheaper and nearer",
+    base::Series frontier{.legend = "no other model is cheaper and more accurate",
                           .paint = base::palette::rest,
                           .line_width = 1,
                           .path = base::Path::Staircase};
@@ -350,7 +350,7 @@ base::Chart cost_chart(const std::vector<ModelCost>& costs)
 
 void compare(const TableOptions& options, std::ostream& out)
 {
-    optics::healing_tissue_or_file(options.tissue); // lest a misspelt one be found minutes later
+    optics::healing_tissue_or_file(options.tissue); // reports a wrong name before the long measurement
     base::make_folder(options.out);
     base::Progress progress;
     const std::vector<MeasuredStack> ladder = measure_models(options.reflectance_options, progress);

@@ -1,5 +1,5 @@
-// `cicatrix-lab COMMAND ...`: makes the tables of docs/ and checks the science against published values. Not
-// needed to use the program.
+// `cicatrix-lab COMMAND ...`: makes the tables of docs/ and checks the models against published values.
+// Users of cicatrix do not need it.
 #include <CLI/CLI.hpp>
 
 #include "base/program.hpp"
@@ -7,7 +7,7 @@
 
 int main(int argc, char** argv)
 {
-    CLI::App program("Makes the tables of Cicatrix' documentation, and checks its science.", "cicatrix-lab");
+    CLI::App program("Makes the tables of Cicatrix' documentation and checks its models.", "cicatrix-lab");
     lab::add_compare_models(program);
     lab::add_calibrate(program);
     lab::add_check_reflectance(program);

@@ -13,7 +13,7 @@
 namespace lab {
 namespace {
 
-/// As a scene makes it, but for the face under it.
+/// A synthetic wound prepared as in a scene, but with the photograph's skin tone instead of the face's.
 wound::PreparedWound matched(wound::WoundShape shape, int patch_size)
 {
     wound::SyntheticWound synthetic;
@@ -30,7 +30,7 @@ struct Milliseconds
     double texture = 0, relief = 0;
 };
 
-/// Both passes, run afresh.
+/// Times of both passes, run without cached contents.
 Milliseconds run_once(stage::Renderer& renderer, const passes::WoundMaps& maps, const wound::WoundDay& today)
 {
     graph::Graph graph;
@@ -45,14 +45,14 @@ Milliseconds run_once(stage::Renderer& renderer, const passes::WoundMaps& maps, 
 
 void measure_models(stage::Renderer& renderer, int rounds, base::Progress& progress)
 {
-    constexpr int size = 256; // the reference takes seconds per megatexel on a software rasteriser
+    constexpr int size = 256; // the composed warp takes seconds per megatexel on a software rasteriser
     constexpr std::array<double, 4> ratios{.6, .2, .05, .01};
     constexpr std::array models{wound::WarpModel::Radial, wound::WarpModel::Grid, wound::WarpModel::Dense,
                                 wound::WarpModel::Composed};
     const wound::PreparedWound wound = matched(wound::WoundShape::Abrasion, size);
     const passes::WoundMaps maps = passes::upload_wound(renderer.device, wound.patch);
     wound::Healing healing;
-    healing.model = wound::HealingModel::Contraction; // one warp, not two
+    healing.model = wound::HealingModel::Contraction; // one warp instead of two
     fmt::print("| r | radial | grid | dense | composed |\n|---|---|---|---|---|\n");
     for (const double ratio : ratios) {
         std::array<std::vector<double>, models.size()> ms;

@@ -1,11 +1,11 @@
-// `cicatrix-lab warps --shader`: what the wound's two compute passes cost on a device, by model of the warp,
-// and what is saved by drawing only the wound's own region.
+// `cicatrix-lab warps --shader`: cost of the wound's two compute passes on a device by warp model, and the
+// saving when only the wound's region is drawn.
 #pragma once
 #include "stage/renderer.hpp"
 
 namespace lab {
 
-/// Two tables as Markdown, on stdout. Whatever is compared is measured in turn in one run; medians.
+/// Prints two Markdown tables of medians. The compared variants are measured alternately in one run.
 void measure_warp_cost(stage::Renderer& renderer, int rounds = 9);
 
 } // namespace lab

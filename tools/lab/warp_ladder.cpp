@@ -11,8 +11,8 @@ namespace lab {
 
 namespace {
 
-constexpr int texels_a_side = 512;
-constexpr int sample_count = 96; // a side, of the lattices on which maps are compared and timed
+constexpr int patch_size = 512;  // texels per side
+constexpr int sample_count = 96; // per side of the lattices on which maps are compared and timed
 
 template <typename Radius>
 wound::Polyline polar(Radius radius, cv::Point2d center = {})
@@ -41,7 +41,7 @@ wound::Polyline crescent()
     return curve;
 }
 
-/// A superellipse, so that its long sides are straight.
+/// A superellipse: its long sides are nearly straight.
 wound::Polyline cut()
 {
     return polar([](double angle) {
@@ -74,7 +74,7 @@ cv::Point2d centroid_of(const wound::Polyline& curve)
     return sum / (6 * wound::signed_area(curve));
 }
 
-/// CPU time, which other programs' work hardly changes.
+/// CPU time, which depends little on other programs.
 template <typename Work>
 double cpu_ms(Work work)
 {
@@ -83,7 +83,7 @@ double cpu_ms(Work work)
     return 1000. * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-/// Day-0 points of a lattice of sample_count x sample_count over the square of half the side `reach` about `center`.
+/// Day-0 points of a lattice of sample_count x sample_count over a square of half side `reach` at `center`.
 cv::Mat2d lattice(const wound::Warp& warp, cv::Point2d center, double reach)
 {
     cv::Mat2d map(sample_count, sample_count);
@@ -94,7 +94,7 @@ cv::Mat2d lattice(const wound::Warp& warp, cv::Point2d center, double reach)
     return map;
 }
 
-/// Largest distance within the patch, texels. Both maps are lattices over the square about `center`.
+/// Largest distance within the patch, in texels. Both maps are lattices over the same square.
 double largest_distance(const cv::Mat2d& a, const cv::Mat2d& b, cv::Point2d center, double reach)
 {
     double largest = 0;
@@ -103,12 +103,12 @@ double largest_distance(const cv::Mat2d& a, const cv::Mat2d& b, cv::Point2d cent
             const cv::Point2d p =
                 center + reach * cv::Point2d((i + .5) * 2 / sample_count - 1, (j + .5) * 2 / sample_count - 1);
             if (std::max(std::abs(p.x), std::abs(p.y)) < 1)
-                largest = std::max(largest, cv::norm(a(j, i) - b(j, i)) * texels_a_side / 2);
+                largest = std::max(largest, cv::norm(a(j, i) - b(j, i)) * patch_size / 2);
         }
     return largest;
 }
 
-/// Every model at one ratio, timed in turn, the least of rounds; cheap maps are timed more often.
+/// Measures all models at one ratio. Times them alternately, keeps the minimum; cheap maps run more often.
 std::vector<LadderRow> measure(const LadderShape& shape, const wound::ContractionFlow& flow, double ratio)
 {
     constexpr int rounds = 5;
@@ -130,7 +130,7 @@ std::vector<LadderRow> measure(const LadderShape& shape, const wound::Contractio
             }
         }
 
-    // Two lattices: the whole patch, and the neighbourhood of today's wound, which may be a few texels wide.
+    // Two lattices: the whole patch, and around today's wound, which may be only a few texels wide.
     double reach = 0;
     for (cv::Point2d p : shape.border)
         reach = std::max(reach, cv::norm(p - shape.centroid));
@@ -145,9 +145,9 @@ std::vector<LadderRow> measure(const LadderShape& shape, const wound::Contractio
         row.area_error = wound::signed_area(wound::outline_today(warps[i], shape.border)) /
                              (ratio * wound::signed_area(shape.border)) -
                          1;
-        // The thin-plate models cost seconds per check at full size; a quarter of it finds the same folds.
+        // The thin-plate models need seconds per full-size check; a quarter of the size finds the same folds.
         const bool slow = row.model == wound::WarpModel::Dense || row.model == wound::WarpModel::Composed;
-        const wound::FoldCheck check = wound::check_folds(warps[i], slow ? texels_a_side / 4 : texels_a_side);
+        const wound::FoldCheck check = wound::check_folds(warps[i], slow ? patch_size / 4 : patch_size);
         row.folded_texels = check.folded_texels * (slow ? 16 : 1);
         row.least_jacobian = check.least_jacobian;
     }

@@ -1,4 +1,4 @@
-// What a measured ladder looks like: as tables, as CSV, as a plot.
+// Measured warp models as tables, CSV and charts.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 constexpr double patch_texels = 512. * 512;
 constexpr double least_drawn = .01; // texels
 
-/// In their order.
+/// Names of the shapes, each once, in order of the rows.
 std::vector<std::string> shapes_of(const std::vector<LadderRow>& rows)
 {
     std::vector<std::string> shapes;
@@ -51,7 +51,7 @@ double largest(const std::vector<LadderRow>& rows, Value value)
     return result;
 }
 
-/// One quantity over the whole cross; `cell` makes the text of a row.
+/// Table of one quantity for all models, ratios and shapes; `cell` formats a row's value.
 template <typename Cell>
 std::string table(const std::vector<LadderRow>& rows, const std::string& title,
                   const std::vector<wound::WarpModel>& models, Cell cell)
@@ -101,7 +101,7 @@ base::Chart panel(const std::vector<LadderRow>& rows, const std::string& shape)
             const LadderRow& row = find(rows, shape, model, ratio);
             const cv::Point2d point(ratio, std::max(row.error_texels, least_drawn));
             all.points.push_back(point);
-            if (ratio < 1) // in between, at 1, every warp is the identity
+            if (ratio < 1) // no line across 1, where every warp is the identity
                 shrinking.points.push_back(point);
             if (row.folded_texels > 0)
                 folded.points.push_back(point);
@@ -204,7 +204,7 @@ std::string ladder_csv(const std::vector<LadderRow>& rows)
     std::string text = "shape,model,r,error_texels,near_error_texels,area_error,folded_texels,least_jacobian,"
                        "make_ms,ms_per_megatexel\n";
     for (const LadderRow& row : rows) {
-        std::string name; // a file's may hold anything
+        std::string name; // a file name may contain quotes
         for (const char c : row.shape)
             name += c == '"' ? std::string("\"\"") : std::string(1, c);
         text += fmt::format("\"{}\",{},{},{:.6g},{:.6g},{:.6g},{},{:.6g},{:.6g},{:.6g}\n", name,
@@ -219,7 +219,7 @@ cv::Mat3b draw_ladder(const std::vector<LadderRow>& rows)
 {
     constexpr int column_count = 4, panel_width = 300, panel_height = 240; // px
     const std::vector<std::string> shapes = shapes_of(rows);
-    const int count = static_cast<int>(shapes.size()) + 1; // and the legend
+    const int count = static_cast<int>(shapes.size()) + 1; // with the legend
     const auto place = [](int i) {
         return cv::Rect2d(i % column_count * panel_width, i / column_count * panel_height, panel_width,
                           panel_height);

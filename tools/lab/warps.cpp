@@ -16,7 +16,7 @@
 namespace lab {
 namespace {
 
-/// The border of a mask, named after its file.
+/// The wound border of a mask, named after its file.
 LadderShape shape_of(const std::string& file)
 {
     wound::Photograph photograph;
@@ -28,7 +28,7 @@ LadderShape shape_of(const std::string& file)
     return {std::filesystem::path(file).stem().string(), prepared.border, prepared.centroid};
 }
 
-/// The drawn shapes and those of the masks.
+/// Measures the built-in shapes and those of the masks.
 void measure_warps(const std::vector<std::string>& masks, const std::filesystem::path& out)
 {
     std::vector<LadderShape> shapes = ladder_shapes();
@@ -55,8 +55,8 @@ void measure_warps(const std::vector<std::string>& masks, const std::filesystem:
     base::write_text(out / "warps.md", summary + "\n" + ladder_tables(rows));
     base::write_png(out / "warps.png", draw_ladder(rows));
     const std::optional<wound::WarpModel> best = cheapest_exact(rows);
-    fmt::print("{}cheapest within {} texel and without a fold: {}\n"
-               "every shape and r: warps.csv, warps.md and warps.png in {}\n",
+    fmt::print("{}cheapest within {} texel and without folds: {}\n"
+               "all shapes and ratios: warps.csv, warps.md and warps.png in {}\n",
                summary, error_limit, best ? wound::name_of(*best) : "none", out.string());
 }
 
@@ -74,13 +74,13 @@ void add_warps(CLI::App& program)
     auto options = std::make_shared<Options>();
     CLI::App* command =
         program.add_subcommand("warps", "Measure error, area, folds and cost of every warp (docs/warp.md)");
-    command->add_option("masks", options->masks, "Masks whose borders are measured too")->type_name("MASK");
+    command->add_option("masks", options->masks, "Wound masks to measure as well")->type_name("MASK");
     command->add_option("--out", options->out, "Folder for warps.csv, warps.md and warps.png")
         ->capture_default_str()
         ->type_name("DIR");
     command->add_flag(
         "--shader", options->shader,
-        "Print what the compute passes cost on a Vulkan device instead, by model and by region");
+        "Print instead the cost of the compute passes on a Vulkan device, by model and by region");
     command
         ->add_option("--device", options->device,
                      "Vulkan device by index or part of its name; also CICATRIX_DEVICE")
