@@ -18,8 +18,7 @@ struct ReflectOptions
     optics::ReflectanceOptions reflectance_options;
 };
 
-/// Writes one JSON object to `out`, and to `notes` a line for each limit of the model that the tissue
-/// exceeds.
+/// Writes one JSON object to `out`, and a line to `notes` for each limit of the model that is exceeded.
 void reflect(const ReflectOptions& options, std::ostream& out, std::ostream& notes);
 
 void add(CLI::App& app);

@@ -8,7 +8,7 @@
 namespace report_command {
 
 /// Still frame and moving camera show the scene's first day. Moving day goes from the first to the last, or
-/// over ten days when there is only one; moving tissue shows the day a third of the way. The stage must
+/// over ten days when there is only one; moving tissue shows a day at a third of that span. The stage must
 /// outlive the cases; each frame leaves it unchanged.
 std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage);
 

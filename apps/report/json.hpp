@@ -7,8 +7,7 @@
 
 namespace report_command {
 
-/// `facts`: an object that describes program, device, machine, settings and scene; its fields precede
-/// "cases".
+/// `facts`: an object with program, device, machine, settings and scene; its fields precede "cases".
 nlohmann::json report_json(const nlohmann::json& facts, const std::vector<CaseSummary>& summaries,
                            const std::vector<stage::Measurement>& measurements);
 

@@ -1,5 +1,4 @@
-// Sweeps: measures a frame while one quantity grows in steps and everything else is fixed, and fits a power
-// law.
+// Sweeps: measures a frame while one quantity grows and everything else is fixed, and fits a power law.
 #pragma once
 #include <filesystem>
 #include <functional>
