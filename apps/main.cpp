@@ -1,4 +1,4 @@
-// The program: `cicatrix COMMAND ...`. Each command registers itself.
+// The program `cicatrix COMMAND ...`: registers all commands.
 #include <CLI/CLI.hpp>
 
 #include "apps/bake/bake.hpp"
@@ -21,7 +21,7 @@ int main(int argc, char** argv)
 {
     CLI::App program("Cicatrix shows how a wound on a face heals, day by day, from a photograph.",
                      "cicatrix");
-    program.footer("Example: cicatrix capture --days 0:30:3 --out healing\nEach command explains itself: "
+    program.footer("Example: cicatrix capture --days 0:30:3 --out healing\nHelp for a command: "
                    "cicatrix capture --help");
     demo_command::add(program);
     capture_command::add(program);

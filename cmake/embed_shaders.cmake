@@ -1,4 +1,4 @@
-# Turns SPIR-V files into one C++ source with a table of name -> words.
+# Writes one C++ source with a table of shader name -> SPIR-V words.
 # Variables: BINARIES (list), FUNCTION (in namespace graph, returns the table), OUTPUT.
 set(arrays "")
 set(table "")
@@ -6,12 +6,12 @@ foreach(binary ${BINARIES})
     get_filename_component(name ${binary} NAME_WLE) # forward.frag.spv -> forward.frag
     string(MAKE_C_IDENTIFIER "${name}" symbol)
     file(READ ${binary} bytes HEX)
-    # SPIR-V is little-endian words; so are the machines we build on.
+    # The bytes are little-endian 32-bit words.
     string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words "${bytes}")
     string(APPEND arrays "constexpr std::uint32_t ${symbol}[] = {${words}};\n")
     string(APPEND table "    {\"${name}\", ${symbol}},\n")
 endforeach()
-# An array must have an element; the nameless one is never looked up.
+# A C++ array needs at least one element; no shader has the empty name.
 if(NOT table)
     string(APPEND arrays "constexpr std::uint32_t none[] = {0};\n")
     set(table "    {\"\", none},\n")

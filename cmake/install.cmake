@@ -1,4 +1,4 @@
-# cmake --install and the Debian package. The man page and the completions are written by the program itself.
+# cmake --install and the Debian package. The program itself writes the man page and the shell completions.
 include(GNUInstallDirs)
 
 set(documents ${CMAKE_BINARY_DIR}/documents)
@@ -33,7 +33,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS libvulkan1) # loaded at run time, so shlibdeps does not see it
+set(CPACK_DEBIAN_PACKAGE_DEPENDS libvulkan1) # loaded at run time, so shlibdeps cannot find it
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd, ffmpeg")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "npm, ca-certificates") # to fetch the default head
 include(CPack)

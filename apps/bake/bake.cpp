@@ -25,7 +25,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// Days of the strip: close together at first, up to the last of the table.
+// Days of the strip, up to `last_day`; the steps grow from 1 day to several months.
 std::vector<double> days_until(double last_day)
 {
     std::vector<double> days;
@@ -36,8 +36,8 @@ std::vector<double> days_until(double last_day)
     return days;
 }
 
-// Figure 6 of the paper: the colour alone. The printed blend of the printed reflectance beside ours, in the
-// same wound. The open bed is there until it is closed.
+// Figure 6 of the paper, colour only: rows of the published model, the corrected model, the open bed (until
+// the closure day) and the covered wound, for a wound of one depth.
 cv::Mat3b strip(const std::string& title, const cv::Mat3f& table, const shared::LutAxes& axes)
 {
     const base::Color wound_color(.30, .035, .03);
@@ -48,7 +48,7 @@ cv::Mat3b strip(const std::string& title, const cv::Mat3f& table, const shared::
     const std::vector<double> days = days_until(axes.last_day);
     ColorRow published{"published", "eq. (4) as printed, Table 1", {}},
         corrected{"corrected", "eq. (4) ending at the skin", {}},
-        open{"open bed", fmt::format("its tissue, until day {:.1f}", closure), {}},
+        open{"open bed", fmt::format("tissue until day {:.1f}", closure), {}},
         covered{"covered", "new epithelium, then scar", {}};
     for (const double day : days) {
         const wound::HealingState state = wound::healing_at(healing, day);
@@ -65,7 +65,7 @@ cv::Mat3b strip(const std::string& title, const cv::Mat3f& table, const shared::
             optics::blend(optics::BlendModel::Corrected, wound_color, bed, skin_color, state.recovery_ratio));
     }
     return draw_strip(
-        fmt::format("{}: a wound {:g} mm deep, day by day (a gap: the step changes)", title, depth_mm), days,
+        fmt::format("{}: a wound {:g} mm deep, day by day (gaps: the step changes)", title, depth_mm), days,
         {published, corrected, open, covered});
 }
 
@@ -95,7 +95,7 @@ void bake(const BakeOptions& options, std::ostream& out, std::ostream& notes)
 
 namespace {
 
-// "64x32"
+// Parses "WIDTHxHEIGHT", for example "64x32".
 void read_size(const std::string& text, BakeOptions& options)
 {
     unsigned width = 0, height = 0;
@@ -122,13 +122,13 @@ void add(CLI::App& app)
     scene::add_model_option(*command, options->model);
     command->add_option_function<std::string>(
         "--size", [options](const std::string& text) { read_size(text, *options); },
-        "Texels over depth x days (default 64x64)");
+        "Texels of the table, depth x days (default 64x64)");
     command->add_option("--last-day", options->last_day, "Last day of the table")
         ->check(base::number_from(1, 3650))
         ->capture_default_str();
     command->add_option("--out", options->out, "Folder to write")->capture_default_str();
     command
-        ->add_option("--photons", options->reflectance_options.photons, "Photons per colour of the reference")
+        ->add_option("--photons", options->reflectance_options.photons, "Photons per colour of monte-carlo")
         ->transform(base::whole_number_from(100, 1e10))
         ->capture_default_str();
     command->footer("Example: cicatrix bake --tissue dark --out out/bake");

@@ -1,5 +1,4 @@
-// `cicatrix bake`: the reflectance table as files, and the colour of a wound over the days as in the paper's
-// Figure 6.
+// `cicatrix bake`: writes the reflectance table and the colours of a wound by day (Figure 6 of the paper).
 #pragma once
 #include <filesystem>
 #include <iosfwd>
@@ -16,7 +15,7 @@ namespace bake_command {
 
 struct BakeOptions
 {
-    std::string tissue = "light"; // a preset that heals, or a tissue file
+    std::string tissue = "light"; // a healing preset or a tissue file
     optics::ReflectanceModel model = optics::ReflectanceModel::AddingDoubling;
     std::uint32_t width = wound::lut_size, height = wound::lut_size; // texels over depth and over days
     double last_day = 60;
@@ -24,8 +23,9 @@ struct BakeOptions
     optics::ReflectanceOptions reflectance_options{.angles = 4, .photons = 200'000};
 };
 
-/// Writes the tables (EXR and a labelled picture) and the strip of colours over days; says what it wrote on
-/// `out`, and on `notes` where the model does not hold. Numerical levels keep their tables in cache_folder().
+/// Writes the tables (EXR and a labelled picture) and the strip of colours over the days. Prints the written
+/// files to `out` and, if the tissue is outside the model's domain, a note to `notes`. Caches the tables in
+/// base::cache_folder().
 void bake(const BakeOptions& options, std::ostream& out, std::ostream& notes);
 
 void add(CLI::App& app);

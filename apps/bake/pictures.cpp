@@ -11,7 +11,7 @@ namespace bake_command {
 
 namespace {
 
-constexpr double heading = 11, text = 9; // px, of a capital letter
+constexpr double heading = 11, text = 9; // height of a capital letter, px
 
 cv::Mat3b encoded(const cv::Mat3f& linear)
 {
@@ -30,7 +30,8 @@ base::Paint swatch(const base::Color& color)
 
 cv::Mat3b blank(int height, int width)
 {
-    return cv::Mat3b(height, width, base::rgb_of(base::palette::white)); // braces would make a list of pixels
+    // Parentheses: braces would select the initializer-list constructor.
+    return cv::Mat3b(height, width, base::rgb_of(base::palette::white));
 }
 
 double text_extent(const std::string& label)
@@ -38,8 +39,8 @@ double text_extent(const std::string& label)
     return base::text_width(label, text);
 }
 
-/// Ticks along `length` pixels from `begin` on, where the table's texels hold their values: `values` below
-/// `last`, as many as are `gap` pixels apart, and `last`.
+/// Ticks at the texel positions of `last` and of those `values` below it whose labels stay `gap` pixels
+/// apart; the axis starts at pixel `begin` and is `length` pixels long.
 std::vector<base::Tick> table_ticks(std::vector<double> values, float last, int texels, double begin,
                                     double length, const base::Extent& extent, double gap)
 {
@@ -120,7 +121,7 @@ cv::Mat3b draw_strip(const std::string& title, const std::vector<double>& days,
         base::draw_text(picture, rows[r].detail, {10, y + height / 2 + 14}, {.height = text});
         for (std::size_t i = 0; i < rows[r].colors.size(); ++i) {
             const cv::Rect place(x[i], y, width, height);
-            canvas.rect(place, {base::palette::grid}); // a frame: white swatches are seen to be there
+            canvas.rect(place, {base::palette::grid}); // a frame makes white swatches visible
             const cv::Rect inner(place.x + 1, place.y + 1, width - 2, height - 2);
             const auto& color = rows[r].colors[i];
             canvas.rect(inner, {color ? swatch(*color) : base::palette::white});

@@ -1,5 +1,4 @@
-// The pictures of `cicatrix bake`: labelled, small, drawn with OpenCV. Colours are linear Rec. 709 until they
-// are written.
+// The labelled pictures of `cicatrix bake`. Input colours are linear Rec. 709; the pictures are 8-bit sRGB.
 #pragma once
 #include <opencv2/core.hpp>
 #include <optional>
@@ -11,16 +10,16 @@
 
 namespace bake_command {
 
-/// Tables side by side under their names, with depth (mm) and day along the axes.
+/// Draws the tables side by side, each below its name, with depth (mm) along x and day along y.
 cv::Mat3b draw_tables(const std::string& title, const std::vector<std::pair<std::string, cv::Mat3f>>& tables,
                       const shared::LutAxes& axes);
 
 struct ColorRow
 {
-    std::string name, detail;                       // a line each
-    std::vector<std::optional<base::Color>> colors; // one for each day; without one, "closed"
+    std::string name, detail;                       // one line each
+    std::vector<std::optional<base::Color>> colors; // one per day; nullopt is drawn as "closed"
 };
-/// Rows of swatches under the days they belong to, with a gap where the step of the days changes.
+/// Draws rows of swatches, one column per day, with a gap where the step between days changes.
 cv::Mat3b draw_strip(const std::string& title, const std::vector<double>& days,
                      const std::vector<ColorRow>& rows);
 

@@ -18,8 +18,8 @@ namespace batch_command {
 namespace {
 using nlohmann::json;
 
-/// What a finished variation's folder records of itself, written last: it is done when this is what is
-/// wanted.
+/// The content of a finished variation's variation.json, written last. A variation is done when the file
+/// equals this.
 json wanted_record(const Variation& variation, const BatchOptions& options)
 {
     return {{"name", variation.name},
@@ -28,13 +28,13 @@ json wanted_record(const Variation& variation, const BatchOptions& options)
             {"labels", options.labels}};
 }
 
-/// Where a finished variation waits while another takes its place.
+/// Temporary name of the old folder of a variation while a new folder replaces it.
 std::filesystem::path place_aside(const Variation& variation, const BatchOptions& options)
 {
     return options.out / fmt::format(".{}.replaced", variation.name);
 }
 
-/// What was set aside by a batch that was killed before the new one was in place.
+/// Restores or deletes the old folder that a killed batch left under its temporary name.
 void put_back(const Variation& variation, const BatchOptions& options)
 {
     const std::filesystem::path folder = options.out / variation.name,
@@ -56,20 +56,20 @@ bool is_done(const Variation& variation, const BatchOptions& options)
     try {
         return base::read_json(record) == wanted_record(variation, options);
     } catch (const base::InputError&) {
-        return false; // damaged: draw it again
+        return false; // a damaged record: draw the variation again
     }
 }
 
-/// A folder of that name which no batch has made is nobody's to replace.
+/// Refuses to replace a folder that was not made by a batch.
 void check_place(const Variation& variation, const BatchOptions& options)
 {
     const std::filesystem::path folder = options.out / variation.name;
     if (std::filesystem::exists(folder) && !std::filesystem::exists(folder / "variation.json"))
-        throw base::InputError(folder.string(), "is there and was not made by a batch",
+        throw base::InputError(folder.string(), "exists and was not made by a batch",
                                "name another folder with --out");
 }
 
-/// Removed, whatever is in it, unless it was renamed.
+/// Deletes the folder at the end of the scope; after a successful rename nothing is left to delete.
 struct PartialFolder
 {
     std::filesystem::path path;
@@ -106,8 +106,8 @@ void draw_variation(stage::Renderer& renderer, const stage::Stage& stage, const 
     if (labels)
         labels->finish();
     base::write_json(partial / "variation.json", wanted_record(variation, options));
-    // A folder cannot replace another in one step. At every moment one of the two is whole: put_back() finds
-    // it.
+    // A rename cannot replace a folder that is not empty. At every moment the old or the new folder is
+    // complete, and put_back() finds it.
     const std::filesystem::path aside = place_aside(variation, options);
     if (std::filesystem::exists(folder))
         base::rename_over(folder, aside);
@@ -165,8 +165,7 @@ BatchResult run_batch(stage::Renderer& renderer, const std::vector<Variation>& v
     base::Progress progress;
     progress.expect(missing.size());
     const auto start = std::chrono::steady_clock::now();
-    std::optional<stage::Stage>
-        stage; // made once: from one variation to the next only what differs is made anew
+    std::optional<stage::Stage> stage; // one for all variations: update() rebuilds only what differs
     for (std::size_t i = 0; i < missing.size(); ++i) {
         progress.show(missing[i]->name);
         try {
@@ -196,7 +195,7 @@ void merge_batch(const std::vector<Variation>& variations, const BatchOptions& o
         throw base::InputError(options.out.string(),
                                fmt::format("{} of {} variations are not finished, the first is {}",
                                            missing.size(), variations.size(), missing.front()),
-                               "run their shares, with the same options; what is finished is kept");
+                               "run the missing shares with the same options; finished variations are kept");
     json index = json::array();
     stage::Coco coco;
     std::string table =

@@ -1,6 +1,6 @@
-// `cicatrix batch`: a table of variations becomes a folder of captures. Each variation is drawn into a hidden
-// folder that takes its name when it is whole, so a batch that was stopped goes on where it was, and any
-// number of machines may each draw a share into the same place without knowing of one another.
+// `cicatrix batch`: draws a table of variations, one capture folder each. A variation is drawn into a hidden
+// folder that is renamed when it is complete. So a stopped batch can be resumed, and several machines can
+// each draw a share into the same folder without communicating.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -17,7 +17,7 @@ namespace batch_command {
 
 struct BatchOptions
 {
-    std::filesystem::path out = "batch"; // OUT/NAME/ holds what `capture` writes
+    std::filesystem::path out = "batch"; // OUT/NAME/ holds the files that `capture` writes
     std::vector<std::string> views;      // as for `capture`
     bool labels = false;
 };
@@ -25,17 +25,17 @@ struct BatchOptions
 struct BatchResult
 {
     std::size_t drawn = 0, kept = 0;
-    double seconds = 0;                // spent on those that were not kept
+    double seconds = 0;                // wall clock of all variations drawn now, without the kept ones
     std::vector<std::string> failures; // "NAME: what went wrong"
 };
 
-/// Draws those of `variations` that OUT does not hold yet. One that fails (a photograph in which no wound is
-/// found) is told at once and does not stop the others. Throws base::InputError when OUT cannot be
-/// written.
+/// Draws those `variations` that OUT does not contain yet. When one fails (for example, no wound is found in
+/// its photograph), the error is printed at once and the others continue. Throws base::InputError when OUT
+/// cannot be written.
 BatchResult run_batch(stage::Renderer& renderer, const std::vector<Variation>& variations,
                       const BatchOptions& options);
 
-/// Joins what the variations' folders hold: OUT/batch.json and, with labels, OUT/coco.json and
+/// Joins the results of all variations: writes OUT/batch.json and, with labels, OUT/coco.json and
 /// OUT/measurements.csv. Throws base::InputError when variations are missing.
 void merge_batch(const std::vector<Variation>& variations, const BatchOptions& options);
 

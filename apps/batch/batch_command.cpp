@@ -22,7 +22,7 @@ struct CommandOptions : scene::SceneOptions
     std::filesystem::path write;
 };
 
-/// "3/16" -> 3, 16.
+/// Parses "K/N": "3/16" -> {3, 16}.
 std::pair<std::size_t, std::size_t> parse_share(const std::string& text)
 {
     std::size_t share = 0, shares = 0;
@@ -31,7 +31,7 @@ std::pair<std::size_t, std::size_t> parse_share(const std::string& text)
     const bool slash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '/';
     const auto second = slash ? std::from_chars(first.ptr + 1, end, shares) : first;
     if (!slash || second.ec != std::errc{} || second.ptr != end || share < 1 || share > shares)
-        throw base::InputError("--share", "\"" + text + "\" is no share",
+        throw base::InputError("--share", "\"" + text + "\" is not a valid share",
                                "write K/N with K from 1 to N, as in 3/16");
     return {share, shares};
 }
@@ -74,7 +74,7 @@ void run(const CommandOptions& options)
         throw base::InputError(options.variations.string(),
                                fmt::format("{} of {} variations failed, the first is {}",
                                            result.failures.size(), mine.size(), result.failures.front()),
-                               "and run the same command again: what is finished is kept");
+                               "and run the same command again; finished variations are kept");
     if (shares == 1)
         merge_batch(all, options.batch);
 }
@@ -85,7 +85,7 @@ void add(CLI::App& program)
 {
     auto options = std::make_shared<CommandOptions>();
     CLI::App* command = program.add_subcommand(
-        "batch", "Many variations of a scene, from a table, with labels; goes on where it stopped");
+        "batch", "Draw many variations of a scene from a table, with labels; resumes a stopped batch");
     command
         ->add_option(
             "variations", options->variations,
@@ -93,38 +93,39 @@ void add(CLI::App& program)
             "scene), or a folder of scenes")
         ->type_name("VARIATIONS");
     command
-        ->add_option("--scene", options->scene, "Scene that rows start from; without one: the default scene")
+        ->add_option("--scene", options->scene, "Scene that rows start from; without it, the default scene")
         ->type_name("SCENE.json");
     command
         ->add_option("--out", options->batch.out,
-                     "Folder: a folder for each variation, batch.json, coco.json")
+                     "Output folder: one folder per variation, batch.json, coco.json")
         ->capture_default_str()
         ->type_name("DIR");
-    command->add_option("--share", options->share, "Draw only every N-th variation, from the K-th on")
+    command->add_option("--share", options->share, "Draw only every N-th variation, starting with the K-th")
         ->capture_default_str()
         ->type_name("K/N");
     command->add_flag(
         "--merge", options->merge,
-        "Draw nothing: join what all shares have made; without --share this is done at the end");
-    command->add_flag("--labels", options->batch.labels, "As for capture (docs/labels.md)");
-    command->add_option("--views", options->batch.views, "As for capture")
+        "Draw nothing: join the results of all shares; without --share this happens at the end");
+    command->add_flag("--labels", options->batch.labels, "Write labels, as capture does (docs/labels.md)");
+    command->add_option("--views", options->batch.views, "Views, as for capture")
         ->delimiter(',')
         ->type_name("NAMES");
     command->add_option("--head", options->head, "Head of the scene that rows start from")
         ->type_name("FILE.glb");
-    command->add_option("--days", options->days, "Its days")->type_name("DAYS");
-    command->add_option("--size", options->size, "Its size of the pictures")->type_name("WxH");
+    command->add_option("--days", options->days, "Days of the scene that rows start from")->type_name("DAYS");
+    command->add_option("--size", options->size, "Picture size of the scene that rows start from")
+        ->type_name("WxH");
     command->add_flag("--msaa", options->msaa, "Four samples per pixel");
     command->add_option("--device", options->device, "Vulkan device by index or part of its name")
         ->type_name("NAME|INDEX");
     command->add_flag("--validation", options->validation,
-                      "Run under the Vulkan validation layers; a message is a failure");
+                      "Run with the Vulkan validation layers; any message is a failure");
     CLI::Option* random = command
                               ->add_option("--random", options->random.count,
                                            "Draw nothing: make a table of N random variations")
                               ->transform(base::whole_number_from(1, 1e6))
                               ->type_name("N");
-    command->add_option("--seed", options->random.seed, "Of the random variations")
+    command->add_option("--seed", options->random.seed, "Seed of the random variations")
         ->transform(base::whole_number_from(0, 4294967295))
         ->capture_default_str()
         ->needs(random);
@@ -134,7 +135,7 @@ void add(CLI::App& program)
     command->add_option("--photos", options->random.photos, "Photographs of wounds to choose from")
         ->needs(random)
         ->type_name("PHOTO");
-    command->add_option("--write", options->write, "Where the table goes; without it: printed")
+    command->add_option("--write", options->write, "File for the table (default: print it)")
         ->needs(random)
         ->type_name("FILE.csv");
     command->footer("Examples:\n"

@@ -7,7 +7,7 @@
 namespace batch_command {
 namespace {
 
-/// The standard fixes what the engine gives, not what its distributions make of it.
+/// The standard fixes the output of std::mt19937_64 but not of its distributions, so these are our own.
 class Dice
 {
   public:
@@ -24,7 +24,7 @@ class Dice
     std::mt19937_64 engine_;
 };
 
-/// Where wounds are put, in face coordinates, and how wide they may be there.
+/// Centre and half side of a region for wounds, in face coordinates, and the range of their widths.
 struct Area
 {
     double x, y, spread, narrowest_mm, widest_mm;
@@ -60,7 +60,7 @@ std::string random_variations(const RandomVariations& options)
         "camera.azimuth_deg,camera.elevation_deg,exposure_stops\n";
     const std::array kinds{"abrasion", "abrasion", "laceration", "avulsion"};
     const std::array tissues{"light", "medium", "dark"};
-    // One cell at a time: the order in which a call's arguments are drawn would be the compiler's.
+    // One cell at a time: the order of evaluation of function arguments is unspecified.
     const auto number = [&](double low, double high, int digits) {
         table += fmt::format(",{:.{}f}", dice.between(low, high), digits);
     };
@@ -81,7 +81,7 @@ std::string random_variations(const RandomVariations& options)
         number(area.narrowest_mm, area.widest_mm, 1);
         number(-180, 180, 0);
         number(.5, 1.6, 2);
-        // Half closed after 6 to 12 days: a face's pace, slower and faster.
+        // The wound is half closed after 6 to 12 days: slower to faster than is typical of a face.
         table += fmt::format(",{:.4f}", std::log(2) / std::pow(dice.between(6, 12), 1.5));
         table += fmt::format(",{}", dice.below(31));
         table += fmt::format(",{}", dice.one_of(tissues));
@@ -89,7 +89,7 @@ std::string random_variations(const RandomVariations& options)
         number(-10, 55, 0);
         number(.8, 1.5, 2);
         number(.15, .6, 2);
-        // The camera stands on the wound's side or a little beyond the middle.
+        // The camera is on the wound's side of the face, or up to 15 degrees on the other side.
         table += fmt::format(",{:.0f}", side * dice.between(-15, 45));
         number(-15, 20, 0);
         number(-.4, .4, 2);

@@ -18,8 +18,8 @@ namespace {
 using nlohmann::json;
 using Row = std::vector<std::string>;
 
-/// RFC 4180: cells in double quotes may hold commas, line ends and doubled quotes. Rows without text are left
-/// out; `lines` receives the line each row begins on.
+/// Parses CSV (RFC 4180): cells in double quotes may contain commas, line ends and doubled quotes. Empty rows
+/// are skipped. `lines` receives the first line of each row.
 std::vector<Row> parse_csv(const std::string& text, const std::string& where, std::vector<std::size_t>& lines)
 {
     std::vector<Row> rows;
@@ -51,7 +51,7 @@ std::vector<Row> parse_csv(const std::string& text, const std::string& where, st
         any = any || (c != '\n' && c != '\r' && c != ' ');
     }
     if (quoted)
-        throw base::InputError(fmt::format("{}: line {}", where, begin), "has a quote that never ends",
+        throw base::InputError(fmt::format("{}: line {}", where, begin), "has an unclosed quote",
                                "close it, or double it inside a cell");
     end_row();
     for (Row& cells : rows)
@@ -71,7 +71,7 @@ std::vector<std::string> split(const std::string& text, char separator)
     return parts;
 }
 
-/// The field of a scene that a column names; wounds and lights beyond the last are added in turn.
+/// The field of `scene` that a column names; an index one past the last wound or light appends one.
 json& field_of(json& scene, const std::string& column, const std::string& where)
 {
     json* here = &scene;
@@ -85,12 +85,12 @@ json& field_of(json& scene, const std::string& column, const std::string& where)
         std::size_t index = 0;
         const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
         if (!here->is_array() || error != std::errc{} || end != part.data() + part.size())
-            throw base::InputError(where, fmt::format("\"{}\" names no field of a scene", column),
+            throw base::InputError(where, fmt::format("\"{}\" is not a field of a scene", column),
                                    "write it as in wounds.0.width_mm; docs/scene.md lists the fields");
         if (index > here->size())
-            throw base::InputError(where,
-                                   fmt::format("there are only {} before number {}", here->size(), index),
-                                   "count from 0 without leaving one out");
+            throw base::InputError(
+                where, fmt::format("index {} is out of range after {} entries", index, here->size()),
+                "use consecutive indices from 0");
         if (index == here->size())
             here->push_back(json::object());
         here = &(*here)[index];
@@ -98,15 +98,15 @@ json& field_of(json& scene, const std::string& column, const std::string& where)
     return *here;
 }
 
-/// A number, an array and so on as JSON writes it; anything else is text.
+/// Parses a cell as JSON (a number, an array ...); other cells are text.
 json value_of(const std::string& cell)
 {
     json value = json::parse(cell, nullptr, false);
     return value.is_discarded() ? json(cell) : value;
 }
 
-/// What the base scene says and a new photograph or table of areas makes void.
-void forget_what_is_replaced(json& scene, const std::string& column, const std::string& where)
+/// Erases fields of the base scene that a new photograph or a new table of areas replaces.
+void erase_replaced_fields(json& scene, const std::string& column, const std::string& where)
 {
     const auto drop = [&](const char* tail, std::initializer_list<const char*> fields) {
         if (!column.starts_with("wounds.") || !column.ends_with(tail))
@@ -120,7 +120,7 @@ void forget_what_is_replaced(json& scene, const std::string& column, const std::
     drop(".healing.areas", {"gamma", "delta", "theta"});
 }
 
-/// With every field spelled out and files named from the root, so that rows may lie elsewhere.
+/// The scene as JSON with every field and with absolute paths, so that a table in another folder can use it.
 json spelled_out(scene::Scene scene)
 {
     const auto absolute = [](std::filesystem::path& path) {
@@ -137,15 +137,16 @@ json spelled_out(scene::Scene scene)
     return scene::to_json(scene);
 }
 
-/// The same message about a place that the reader of a table knows.
+/// Throws the error `message` again with `where` as its location.
 [[noreturn]] void rethrow(const std::string& where, const std::string& message)
 {
-    const std::size_t cure = message.rfind("; ");
-    throw base::InputError(where, message.substr(0, cure),
-                           cure == std::string::npos ? "mend it" : message.substr(cure + 2));
+    const std::size_t remedy = message.rfind("; ");
+    throw base::InputError(where, message.substr(0, remedy),
+                           remedy == std::string::npos ? "correct it" : message.substr(remedy + 2));
 }
 
-/// "ROW: /wounds/0/width_mm: is 900" -> "ROW, column wounds.0.width_mm: is 900".
+/// Reads the scene; errors name the column: "ROW: /wounds/0/width_mm: is 900" becomes
+/// "ROW, column wounds.0.width_mm: is 900".
 scene::Scene checked_scene(const json& scene, const std::filesystem::path& path, const std::string& where)
 {
     try {
@@ -166,10 +167,10 @@ void check_name(const std::string& name, const std::string& where, std::set<std:
 {
     const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_' || c == '.'; };
     if (name.empty() || name.size() > 100 || name[0] == '.' || !std::ranges::all_of(name, fits))
-        throw base::InputError(where, "\"" + name + "\" is no name for a folder",
+        throw base::InputError(where, "\"" + name + "\" is not a valid folder name",
                                "use letters, digits, - and _");
     if (!known.insert(name).second)
-        throw base::InputError(where, "\"" + name + "\" is there twice", "give every variation its own name");
+        throw base::InputError(where, "\"" + name + "\" occurs twice", "give every variation its own name");
 }
 
 std::vector<Variation> read_table(const std::filesystem::path& path, const scene::Scene& base)
@@ -184,8 +185,7 @@ std::vector<Variation> read_table(const std::filesystem::path& path, const scene
     std::set<std::string> names, columns;
     for (const std::string& column : header)
         if (!columns.insert(column).second)
-            throw base::InputError(path.string(), "column \"" + column + "\" is there twice",
-                                   "leave one out");
+            throw base::InputError(path.string(), "column \"" + column + "\" occurs twice", "remove one");
 
     const json spelled = spelled_out(base);
     std::vector<Variation> variations;
@@ -196,7 +196,7 @@ std::vector<Variation> read_table(const std::filesystem::path& path, const scene
                                    fmt::format("has {} cells, the header {}", rows[i].size(), header.size()),
                                    "give one per column; quote cells that hold commas");
         json scene = spelled;
-        for (std::size_t k = 0; k < header.size(); ++k) // whatever the order of columns
+        for (std::size_t k = 0; k < header.size(); ++k) // before the other columns
             if (header[k] == "scene" && !rows[i][k].empty())
                 scene = spelled_out(scene::read_scene(path.parent_path() / rows[i][k]));
         for (std::size_t k = 0; k < header.size(); ++k) {
@@ -208,7 +208,7 @@ std::vector<Variation> read_table(const std::filesystem::path& path, const scene
                 variation.name = cell;
                 continue;
             }
-            forget_what_is_replaced(scene, column, where);
+            erase_replaced_fields(scene, column, where);
         }
         for (std::size_t k = 0; k < header.size(); ++k)
             if (header[k] != "scene" && header[k] != "name" && !rows[i][k].empty())
@@ -229,7 +229,7 @@ std::vector<Variation> read_folder(const std::filesystem::path& folder)
             files.push_back(entry.path());
     if (files.empty())
         throw base::InputError(folder.string(), "holds no scenes", "put .json files there (docs/scene.md)");
-    std::ranges::sort(files); // the same order for every share
+    std::ranges::sort(files); // so that all shares use the same order
     std::vector<Variation> variations;
     std::set<std::string> names;
     for (const std::filesystem::path& file : files) {
@@ -263,7 +263,7 @@ void check_files(const Variation& variation)
         if (const auto* place = std::get_if<std::string>(&wound.place);
             place != nullptr && !head::known_face_point(*place))
             throw base::InputError(fmt::format("{}, column wounds.{}.at", variation.where, i),
-                                   "\"" + *place + "\" is no known place",
+                                   "\"" + *place + "\" is not a known place",
                                    "use cheek, eyebrow, chin, forehead, nose, or \"[x, y]\"");
     }
     try {

@@ -32,9 +32,9 @@ void run_capture(CommandOptions& options)
     base::make_folder(options.capture.out);
     if (options.capture.video.has_parent_path())
         base::make_folder(options.capture.video.parent_path());
-    auto props = std::async(std::launch::async, [&scene] { return stage::Stage::prepare(scene); });
+    auto preparation = std::async(std::launch::async, [&scene] { return stage::Stage::prepare(scene); });
     stage::Renderer renderer(stage::device_options(options));
-    const stage::Stage stage(renderer.device, props.get());
+    const stage::Stage stage(renderer.device, preparation.get());
     for (const std::string& note : stage.loaded().notes)
         fmt::print(stderr, "note: {}\n", note);
 
@@ -56,7 +56,7 @@ void run_capture(CommandOptions& options)
     for (const nlohmann::json& film : record.value("films", nlohmann::json::array()))
         fmt::print("{} frames in {}\n", film["frames"].size(), film["file"].get<std::string>());
     if (labels)
-        fmt::print("labels: labels.json, coco.json and, to look at, labels.png\n");
+        fmt::print("labels: labels.json, coco.json and labels.png\n");
     for (const std::string& line : lines)
         fmt::print("{}\n", line);
 }
@@ -66,8 +66,8 @@ void run_capture(CommandOptions& options)
 void add(CLI::App& program)
 {
     auto options = std::make_shared<CommandOptions>();
-    CLI::App* command =
-        program.add_subcommand("capture", "Pictures of a wound healing, day by day, and what each cost");
+    CLI::App* command = program.add_subcommand(
+        "capture", "Draw pictures of a healing wound, day by day, and measure what each costs");
     scene::add_scene_options(*command, *options);
     command
         ->add_option("--out", options->capture.out, "Folder for the pictures, healing.png and capture.json")
@@ -79,46 +79,47 @@ void add(CLI::App& program)
     views.pop_back();
     command->add_option("--views", options->capture.views, views)
         ->delimiter(',')
-        ->allow_extra_args(false) // what follows may be the scene
+        ->allow_extra_args(false) // the next argument may be the scene
         ->type_name("NAMES");
     command
         ->add_option("--orbit", options->capture.orbit,
-                     "So many pictures around the head instead of one per day; the day moves from the first "
-                     "to the last of --days meanwhile")
+                     "N pictures from around the head instead of one per day; the day advances from the "
+                     "first to the last of --days")
         ->transform(base::whole_number_from(1, 10000))
         ->type_name("N");
-    command->add_option("--orbit-degrees", options->capture.orbit_deg, "How far around")
+    command
+        ->add_option("--orbit-degrees", options->capture.orbit_deg, "Angle that the camera of --orbit covers")
         ->type_name("DEGREES")
         ->check(base::number_from(-3600, 3600))
         ->capture_default_str();
     command
         ->add_option(
             "--video", options->capture.video,
-            "A film as well, the day moving evenly from the first to the last of --days; with --orbit "
-            "the camera goes around. Needs the program ffmpeg")
+            "Also write a film; the day advances evenly from the first to the last of --days, and with "
+            "--orbit the camera moves around the head. Needs the program ffmpeg")
         ->type_name("FILE.mp4");
-    command->add_option("--duration", options->capture.duration_s, "Of the film")
+    command->add_option("--duration", options->capture.duration_s, "Duration of the film")
         ->type_name("SECONDS")
         ->check(base::number_from(0.01, 3600))
         ->capture_default_str();
-    command->add_option("--fps", options->capture.fps, "Its frames per second")
+    command->add_option("--fps", options->capture.fps, "Frames per second of the film")
         ->type_name("N")
         ->check(base::number_from(1, 240))
         ->capture_default_str();
     command->add_flag("--transparent", options->capture.transparent,
-                      "Nothing behind the head: PNG with straight alpha, EXR premultiplied");
+                      "Transparent background: PNG with straight alpha, EXR premultiplied");
     command->add_flag("--exr", options->capture.exr,
-                      "Also each picture's linear light as OpenEXR, before exposure and encoding");
+                      "Also write each picture as OpenEXR: linear light before exposure and encoding");
     command
         ->add_option("--tile", options->capture.tile,
-                     "Pictures with a longer side are drawn in tiles of at most so many pixels a side")
+                     "Longest side of a tile in pixels; larger pictures are drawn in tiles")
         ->capture_default_str()
         ->type_name("PX");
     command->add_flag(
         "--labels", options->labels,
-        "For every picture: classes, wounds, mask, depth and distance as images, areas in pixels "
-        "and mm2, camera, labels.json, coco.json (docs/labels.md)");
-    command->add_flag("--no-cost", options->no_cost, "Leave out the cost measurement at the end");
+        "Also write labels of every picture: classes, wounds, mask, depth and distance as images, areas "
+        "in pixels and mm2, camera; labels.json, coco.json (docs/labels.md)");
+    command->add_flag("--no-cost", options->no_cost, "Skip the cost measurement at the end");
     command->footer("Examples:\n"
                     "  cicatrix capture --days 0:30:3 --wound photo.jpg --mask mask.png --out healing\n"
                     "  cicatrix capture --days 0:30:10 --views front,left,close-up\n"

@@ -31,16 +31,16 @@ using nlohmann::json;
 
 struct CompareOptions : scene::SceneOptions
 {
-    std::string other; // the second scene
+    std::string other; // file of the second scene
     std::filesystem::path out = "out/compare";
     std::vector<std::string> views;
-    int rounds = 9; // of the cost measurement
+    int rounds = 9; // of the cost measurement, for each scene
 };
 
-// ---- The page: a row for each picture, A | B | difference, and a bar that says what its colours mean
+// ---- The page: one row per picture, A | B | difference, and a colour scale
 
 constexpr int cell_width = 420, gap = 12, title_height = 44, label_height = 30, bar_width = 90;
-constexpr std::size_t most_rows = 24; // chosen evenly from all pictures
+constexpr std::size_t max_rows = 24; // evenly spaced among all pictures
 
 struct Row
 {
@@ -50,7 +50,7 @@ struct Row
     std::string label;
 };
 
-cv::Mat3b in_colors(const cv::Mat1f& difference, double top)
+cv::Mat3b color_mapped(const cv::Mat1f& difference, double top)
 {
     cv::Mat1b level;
     difference.convertTo(level, CV_8U, 255 / top);
@@ -61,12 +61,12 @@ cv::Mat3b in_colors(const cv::Mat1f& difference, double top)
     return rgb;
 }
 
-void draw_bar(cv::Mat3b& page, cv::Rect area, double top)
+void draw_color_scale(cv::Mat3b& page, cv::Rect area, double top)
 {
     cv::Mat1f ramp(area.height, 1);
     for (int y = 0; y < area.height; ++y)
         ramp(y) = float(top * (area.height - 1 - y) / std::max(1, area.height - 1));
-    cv::resize(in_colors(ramp, top), page(area), area.size(), 0, 0, cv::INTER_NEAREST);
+    cv::resize(color_mapped(ramp, top), page(area), area.size(), 0, 0, cv::INTER_NEAREST);
     for (const double share : {0., .25, .5, .75, 1.})
         base::draw_text(page, fmt::format("{}{:g}", share == 1 ? ">= " : "", share * top),
                         {area.br().x + 4, int(area.br().y - share * (area.height - 12))});
@@ -88,12 +88,12 @@ cv::Mat3b draw_page(const std::array<std::string, 3>& titles, const std::vector<
         const int y = title_height + int(i) * (cell_height + label_height);
         paste(rows[i].a, 0, y);
         paste(rows[i].b, 1, y);
-        cv::Mat3b map = in_colors(rows[i].difference, top);
+        cv::Mat3b map = color_mapped(rows[i].difference, top);
         map.setTo(cv::Scalar(225, 225, 228), ~rows[i].head);
         paste(map, 2, y);
         base::draw_text(page, rows[i].label, {gap, y + cell_height + 20}, {.height = 11});
     }
-    draw_bar(page, {gap + 3 * (cell_width + gap), title_height, 18, cell_height}, top);
+    draw_color_scale(page, {gap + 3 * (cell_width + gap), title_height, 18, cell_height}, top);
     return page;
 }
 
@@ -110,15 +110,15 @@ std::array<scene::Scene, 2> both_scenes(const CompareOptions& options)
     second.scene = options.other;
     std::array<scene::Scene, 2> scenes{scene::chosen_scene(options), scene::chosen_scene(second)};
     if (scenes[0].size != scenes[1].size)
-        throw base::InputError(options.other + ": size", "is not that of " + options.scene,
+        throw base::InputError(options.other + ": size", "differs from that of " + options.scene,
                                "make them equal, or give --size");
     if (scenes[0].days != scenes[1].days)
-        throw base::InputError(options.other + ": days", "are not those of " + options.scene,
+        throw base::InputError(options.other + ": days", "differ from those of " + options.scene,
                                "make them equal, or give --days");
     return scenes;
 }
 
-/// Draws both in turn and compares the medians of the forward pass.
+/// Draws both scenes alternately and compares the median times of the forward pass.
 json interleaved_cost(stage::Renderer& renderer, const std::array<const stage::Stage*, 2>& stages,
                       const std::array<scene::Shot, 2>& shots, int rounds)
 {
@@ -139,7 +139,7 @@ json interleaved_cost(stage::Renderer& renderer, const std::array<const stage::S
     return {{"rounds", rounds}, {"forward_ms", {{"a", a}, {"b", b}}}, {"forward_b_over_a", b / a}};
 }
 
-/// Shots of both scenes under the same names.
+/// Shots of both scenes; their names must be equal.
 std::array<std::vector<scene::Shot>, 2> both_shots(const std::array<const stage::Stage*, 2>& stages,
                                                    const std::vector<std::string>& views)
 {
@@ -148,7 +148,7 @@ std::array<std::vector<scene::Shot>, 2> both_shots(const std::array<const stage:
         shots[side] = scene::shots_of_days(stages[side]->scene().days,
                                            scene::chosen_views(stages[side]->loaded(), views));
     if (!std::ranges::equal(shots[0], shots[1], {}, &scene::Shot::name, &scene::Shot::name))
-        throw base::InputError("the scenes' views", "are not the same", "name those to compare with --views");
+        throw base::InputError("the scenes' views", "differ", "choose the views to compare with --views");
     return shots;
 }
 
@@ -184,7 +184,7 @@ void run_compare(const CompareOptions& options)
     json days = json::array();
     std::vector<Row> rows;
     double top = 0;
-    const std::size_t stride = (shots[0].size() + most_rows - 1) / most_rows;
+    const std::size_t stride = (shots[0].size() + max_rows - 1) / max_rows;
     for (std::size_t i = 0; i < shots[0].size(); ++i) {
         progress.show(shots[0][i].name);
         drawing.transparent = true;
@@ -221,7 +221,7 @@ void run_compare(const CompareOptions& options)
                                                     {"cost", cost}});
     for (const Row& row : rows)
         fmt::print("{}\n", row.label);
-    fmt::print("forward pass: A {:.1f} ms, B {:.1f} ms, B / A {:.2f} (medians of {}, in turn)\n"
+    fmt::print("forward pass: A {:.1f} ms, B {:.1f} ms, B / A {:.2f} (medians of {}, drawn alternately)\n"
                "compare.png and compare.json in {}\n",
                cost["forward_ms"]["a"].get<double>(), cost["forward_ms"]["b"].get<double>(),
                cost["forward_b_over_a"].get<double>(), options.rounds, options.out.string());
@@ -265,13 +265,13 @@ ColorDifference color_difference(const cv::Mat4b& a, const cv::Mat4b& b)
 void add(CLI::App& program)
 {
     auto options = std::make_shared<CompareOptions>();
-    CLI::App* command = program.add_subcommand(
-        "compare", "Two scenes side by side: where they differ, by how much, and what each costs");
+    CLI::App* command =
+        program.add_subcommand("compare", "Compare two scenes: their pictures, colour differences and costs");
     scene::add_scene_options(*command, *options);
     command->get_option("scene")->required()->description("First scene, A (docs/scene.md)");
     command
         ->add_option("other", options->other,
-                     "Second scene, B, of the same size and days; the options below hold for both")
+                     "Second scene, B, of the same size and days; the options below apply to both")
         ->required()
         ->type_name("OTHER.json");
     command
@@ -279,7 +279,8 @@ void add(CLI::App& program)
                      "Views to compare, as in cicatrix capture, separated by commas")
         ->delimiter(',')
         ->type_name("NAMES");
-    command->add_option("--rounds", options->rounds, "How often each is drawn to measure its cost")
+    command
+        ->add_option("--rounds", options->rounds, "Number of times each scene is drawn to measure its cost")
         ->transform(base::whole_number_from(1, 1000))
         ->capture_default_str();
     command->add_option("--out", options->out, "Folder for compare.png and compare.json")
@@ -287,7 +288,7 @@ void add(CLI::App& program)
         ->type_name("DIR");
     command->footer("Example: cicatrix compare scenes/translucency_published.json "
                     "scenes/translucency_bounded.json --days 0 --out out/translucency\n"
-                    "A difference of 1 (CIEDE2000) is just noticeable. Whatever a scene file can say can be "
+                    "A difference of 1 (CIEDE2000) is just noticeable. All settings of a scene file can be "
                     "compared: shading models, lights, tissue, healing.");
     command->callback([options] { run_compare(*options); });
 }

@@ -1,5 +1,4 @@
-// `cicatrix compare`: two scenes side by side, where and how much they differ to the eye, and what each
-// costs.
+// `cicatrix compare`: compares the pictures of two scenes (CIEDE2000) and the costs of drawing them.
 #pragma once
 #include <opencv2/core.hpp>
 
@@ -9,16 +8,16 @@ class App;
 
 namespace compare_command {
 
-/// CIEDE2000 between two pictures, where both show the head.
+/// CIEDE2000 differences of two pictures in the pixels where both show the head.
 struct ColorDifference
 {
-    cv::Mat1f map; // 0 beside the head
-    cv::Mat1b head;
-    int pixels = 0;                                                   // of the head
-    double mean = 0, percentile_95 = 0, percentile_99_9 = 0, max = 0; // 0 without any
+    cv::Mat1f map;                                                    // 0 outside the head
+    cv::Mat1b head;                                                   // 255 in the head
+    int pixels = 0;                                                   // in the head
+    double mean = 0, percentile_95 = 0, percentile_99_9 = 0, max = 0; // 0 without pixels
 };
 
-/// Of equally large 8-bit sRGB pictures, RGBA with the head where alpha is 255.
+/// `a`, `b`: 8-bit sRGB with alpha, of equal size; alpha is 255 in the head.
 ColorDifference color_difference(const cv::Mat4b& a, const cv::Mat4b& b);
 
 void add(CLI::App& program);

@@ -28,7 +28,7 @@ scene::Camera pan(scene::Camera camera, double right, double down, double distan
     const glm::dvec3 across = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), towards));
     const glm::dvec3 up = glm::cross(towards, across);
     const double height_m = 2 * distance_m * std::tan(glm::radians(camera.fov_deg) / 2);
-    const glm::dvec3 step = height_m * (down * up - right * across); // against the mouse
+    const glm::dvec3 step = height_m * (down * up - right * across); // the camera moves opposite to the mouse
     for (int i = 0; i < 3; ++i)
         camera.target_m[std::size_t(i)] = std::clamp(camera.target_m[std::size_t(i)] + step[i], -1.0, 1.0);
     return camera;

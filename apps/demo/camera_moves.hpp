@@ -1,18 +1,19 @@
-// What a mouse does to a scene's camera. Every result is one that a scene file may hold.
+// Camera moves by mouse. Every result is valid in a scene file.
 #pragma once
 #include "scene/scene.hpp"
 
 namespace demo_command {
 
-/// The camera goes around what it looks at: `right_deg` to the viewer's right, `up_deg` upwards, held at
-/// +-89.
+/// Turns the camera around its target: `right_deg` to the viewer's right, `up_deg` upwards; the elevation is
+/// clamped to +-89 degrees.
 scene::Camera orbit(scene::Camera camera, double right_deg, double up_deg);
 
-/// Comes nearer by `factor` > 1, goes away by one < 1; held between 3 cm and 10 m. `distance_m`: of the
-/// camera now, Stage::distance().
+/// Divides the camera's distance by `factor` (> 0) and clamps it to 0.03..10 m. `distance_m`: the present
+/// distance, from scene::LoadedScene::distance().
 scene::Camera zoom(scene::Camera camera, double factor, double distance_m);
 
-/// The head follows the mouse: `right` and `down` are in heights of the picture. Held within 1 m of the face.
+/// Moves the camera so that the head follows the mouse by `right` and `down`, in picture heights. Each
+/// coordinate of the target is clamped to +-1 m.
 scene::Camera pan(scene::Camera camera, double right, double down, double distance_m);
 
 } // namespace demo_command

@@ -10,16 +10,15 @@ void add(CLI::App& program)
 {
     auto options = std::make_shared<DemoOptions>();
     CLI::App* command =
-        program.add_subcommand("demo", "A window: turn the head, move the light, place wounds, "
-                                       "let the days go by");
+        program.add_subcommand("demo", "Open a window: turn the head, move the light, place wounds, "
+                                       "play through the days");
     scene::add_scene_options(*command, *options);
-    command->add_option("--scale", options->scale, "Size of text and controls; without it, the screen's")
+    command->add_option("--scale", options->scale, "Scale of text and controls (default: the screen's)")
         ->check(base::number_from(0.5, 4));
     command
-        ->add_option("--screenshot", options->screenshot,
-                     "Save what the window shows once it is complete, and end")
+        ->add_option("--screenshot", options->screenshot, "Save the complete window as a picture, then quit")
         ->type_name("FILE.png");
-    command->add_option("--events", options->events, "Tell what happens, one JSON object a line")
+    command->add_option("--events", options->events, "Write events to FILE, one JSON object per line")
         ->type_name("FILE")
         ->group("");
     command->footer("Example: cicatrix demo scenes/chin.json\nF1 in the window lists keys and gestures.");

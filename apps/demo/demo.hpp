@@ -1,4 +1,4 @@
-// `cicatrix demo [SCENE]`: the window.
+// `cicatrix demo [SCENE]`: the interactive window.
 #pragma once
 
 namespace CLI {

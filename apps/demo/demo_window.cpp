@@ -16,7 +16,7 @@ namespace demo_command {
 namespace {
 
 constexpr std::array<int, 2> first_size{1280, 720};
-constexpr double frame_s = 1.0 / 60; // no display shows more
+constexpr double frame_s = 1.0 / 60; // s, the shortest time between frames of playback and fades
 
 gpu::DeviceOptions window_device(const DemoOptions& options, const window::Window& window)
 {
@@ -31,15 +31,15 @@ gpu::DeviceOptions window_device(const DemoOptions& options, const window::Windo
 DemoWindow::DemoWindow(const DemoOptions& options)
     : options_(options), events_(options.events), window_("Cicatrix", first_size)
 {
-    events_.tell("window"); // it is there, and empty
+    events_.tell("window"); // open, still empty
     window_.on_display_lost = [this] { return rescue(); };
     on_disk_ = state_.scene = scene::chosen_scene(options_);
     state_.scene_file = options_.scene;
     loading_ = std::async(std::launch::async, [scene = state_.scene] {
-        stage::Stage::Preparation props = stage::Stage::prepare(scene);
+        stage::Stage::Preparation preparation = stage::Stage::prepare(scene);
         window::Window::wake();
-        return props;
-    }); // while the device is opened
+        return preparation;
+    }); // runs while the device is opened
     renderer_ = std::make_unique<stage::Renderer>(window_device(options_, window_));
     swapchain_ = std::make_unique<window::Swapchain>(renderer_->device, window_);
     ui_ = std::make_unique<window::Ui>(window_, options_.scale);
@@ -56,7 +56,7 @@ void DemoWindow::run()
 {
     last_step_ = now_s();
     while (!may_close()) {
-        const std::optional<double> wait = patience();
+        const std::optional<double> wait = seconds_to_wait();
         if (!wait)
             tell_idle();
         if (state_.wishes.quit)
@@ -77,20 +77,20 @@ bool DemoWindow::may_close()
         return true;
     window_.keep_open();
     state_.wishes.stop_film = recording_.has_value();
-    state_.wishes.quit = recording_.has_value(); // asked again when the film is gone
+    state_.wishes.quit = recording_.has_value(); // quit again when the recording has stopped
     if (!recording_)
         open_dialog(state_, Dialog::Quit);
     settle_ = 2;
     return false;
 }
 
-std::optional<double> DemoWindow::patience() const
+std::optional<double> DemoWindow::seconds_to_wait() const
 {
     const double now = now_s();
     if (window_.minimised())
         return std::nullopt;
     if (!on_screen_)
-        return .05; // the window gave no image
+        return .05; // the swapchain had no image: try again
     if (settle_ > 0 || recording_ || window_.has_input())
         return 0;
     if (state_.playback.playing || now < fading_until_)
@@ -122,7 +122,7 @@ void DemoWindow::step()
     state_.scale = ui_->scale();
     tell_facts();
     if (recording_)
-        record_picture(); // before the interface refers to the picture of it that is replaced
+        record_picture(); // before the interface uses the preview, which this replaces
     ui_->begin(swapchain_->ui(), keys);
     draw_demo(state_);
     if (std::exchange(shown_dialog_, state_.dialog) != state_.dialog)
@@ -133,10 +133,10 @@ void DemoWindow::step()
     if (state_.moving || state_.playback.playing || ImGui::GetIO().MouseWheel != 0)
         quality_.moving(now);
     if (std::exchange(shown_notices_, state_.notices.list().size()) != state_.notices.list().size())
-        settle_ = 2; // their window takes their size a frame later
+        settle_ = 2; // ImGui resizes their window one frame later
     const bool rendered = render();
     if (!window_.take_damaged() && !rendered && !ui_->changed() && on_screen_)
-        return; // what is on the screen is what would be drawn
+        return; // the screen is up to date
     on_screen_ = swapchain_->show(frame(drawn));
     frames_ += on_screen_;
     if (on_screen_ && pictures_ > 0 && !std::exchange(told_picture_, true))
@@ -158,7 +158,7 @@ void DemoWindow::finish_loading()
         state_.notices.say(note, now_s());
 }
 
-/// The interface is drawn before the picture it lies over; it learns of what is there.
+/// Copies facts about the stage to the interface, which is drawn before the picture below it.
 void DemoWindow::tell_facts()
 {
     if (!stage_)
@@ -205,7 +205,7 @@ bool DemoWindow::render()
     return drawn == Drawn::Now;
 }
 
-/// Asks first whether the picture is there already; a smaller one only when a full one is not.
+/// Draws the picture at `scale` unless it is up to date; at full scale, not while something moves.
 DemoWindow::Drawn DemoWindow::draw_picture(double scale)
 {
     const std::array<std::uint32_t, 2> full = view_pixels();
@@ -232,7 +232,7 @@ DemoWindow::Drawn DemoWindow::draw_picture(double scale)
     state_.frame_ms = result.frame_ms;
     state_.render_scale = scale;
     ++pictures_;
-    settle_ = std::max(settle_, 1); // the panel shows what it cost
+    settle_ = std::max(settle_, 1); // to show the new times in the panel
     return Drawn::Now;
 }
 
@@ -288,17 +288,17 @@ void DemoWindow::tell_idle()
 
 std::string DemoWindow::rescue() const
 {
-    const std::string anew = "open the window again on a running display";
+    const std::string advice = "open the window again on a running display";
     if (!stage_ || state_.scene == on_disk_)
-        return anew;
+        return advice;
     const std::filesystem::path file = base::cache_folder() / fmt::format("rescued-{}.json", ::getpid());
     try {
         base::make_folder(file.parent_path());
         scene::save_scene(file, state_.scene);
         return fmt::format("the scene with its edits is in {}; {} with it: cicatrix demo {}", file.string(),
-                           anew, file.string());
+                           advice, file.string());
     } catch (const std::exception& error) {
-        return fmt::format("the edits are lost, for {}; {}", error.what(), anew);
+        return fmt::format("the edits are lost: {}; {}", error.what(), advice);
     }
 }
 

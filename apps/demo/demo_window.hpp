@@ -1,4 +1,4 @@
-// The demo's loop: waits for events, renders what changed, shows it. When nothing changes it sleeps.
+// The demo's main loop: waits for events, renders what changed and shows it; sleeps while nothing changes.
 #pragma once
 #include <filesystem>
 #include <future>
@@ -20,26 +20,26 @@ namespace demo_command {
 
 struct DemoOptions : scene::SceneOptions
 {
-    double scale = 0; // of text and controls; 0: the screen's
+    double scale = 0; // of text and controls; 0: the screen's scale
     std::filesystem::path events, screenshot;
 };
 
 class DemoWindow
 {
   public:
-    /// Opens the window at once; the head is read meanwhile. Throws base::InputError without a display or
-    /// a fit device.
+    /// Opens the window and reads the head in the background. Throws base::InputError without a display or a
+    /// suitable device.
     explicit DemoWindow(const DemoOptions& options);
     ~DemoWindow();
 
-    /// Until the user closes the window.
+    /// Returns when the user closes the window.
     void run();
 
   private:
     // The loop.
     void step();
-    bool may_close();                       // when asked to; asks back
-    std::optional<double> patience() const; // until the next step; none: until something happens
+    bool may_close();                              // shows the Quit dialog when there are unsaved edits
+    std::optional<double> seconds_to_wait() const; // until the next step; none: until an event
     void finish_loading();
     void tell_idle();
 
@@ -47,27 +47,27 @@ class DemoWindow
     bool render();
     enum class Drawn : std::uint8_t
     {
-        Already, // what would be drawn is there
+        Already, // the picture is up to date
         Now,
-        NotNow
+        NotNow // something moves: draw at a smaller scale
     };
     Drawn draw_picture(double scale);
     window::WindowFrame frame(const ImDrawData* ui) const;
     std::array<std::uint32_t, 2> view_pixels() const;
     void tell_facts(); // to the interface
     void save_screenshot();
-    std::string rescue() const; // the scene, when the display is lost; returns how to go on
+    std::string rescue() const; // saves the scene when the display is lost; returns advice for the user
 
-    // What is edited; each reports what goes wrong in the window.
+    // Edits; each shows its errors as notices in the window.
     void apply_edits();
     void show_scene();
     void match_comparison();
     double compared_day(double day) const { return state_.compare == Compare::Day0 ? 0 : day; }
     scene::Scene compared_scene() const;
-    bool unsaved() const; // edits, other than of the camera
+    bool unsaved() const; // there are edits of more than the camera
     void grant_wishes();
     void grant_edits();
-    std::optional<glm::dvec3> place_at(const glm::dvec2& at) const; // on the skin; 0..1 of the view
+    std::optional<glm::dvec3> place_at(const glm::dvec2& at) const; // on the skin; `at`: 0..1 of the view
     void put_wound(const glm::dvec2& at);
     void move_wound(const glm::dvec2& to);
     void go_to(const scene::Scene& scene);
@@ -80,12 +80,12 @@ class DemoWindow
     void save_scene(std::filesystem::path file);
     void save_picture(std::filesystem::path file);
     void start_film(std::filesystem::path file);
-    void record_picture(); // of the film
+    void record_picture(); // the next frame of the film
     cv::Mat3b picture_of(double day,
                          const stage::DrawOptions& options); // as the window shows it, split or not
     void show_in_dialog(const cv::Mat3b& picture);
     template <typename Work>
-    void attempt(Work work); // an error in it becomes a notice
+    void attempt(Work work); // shows a base::InputError as a notice
 
     DemoOptions options_;
     DemoEvents events_;
@@ -94,7 +94,7 @@ class DemoWindow
     std::unique_ptr<stage::Renderer> renderer_;
     std::unique_ptr<window::Swapchain> swapchain_;
     std::unique_ptr<window::Ui> ui_;
-    std::unique_ptr<gpu::Texture> photo_; // in the dialog
+    std::unique_ptr<gpu::Texture> photo_; // shown in the dialog
     struct Recording
     {
         std::unique_ptr<base::Film> film;
@@ -105,15 +105,15 @@ class DemoWindow
     std::optional<Recording> recording_;
     std::future<stage::Stage::Preparation> loading_;
     std::unique_ptr<stage::Stage> stage_;
-    std::optional<stage::Stage> compared_; // right of the divider
+    std::optional<stage::Stage> compared_; // shown right of the divider
     History history_{scene::Scene{}};
-    scene::Scene on_disk_; // as it was read or saved last
+    scene::Scene on_disk_; // as last read or saved
     Quality quality_;
     VkImage picture_ = VK_NULL_HANDLE;
     std::array<std::uint32_t, 2> picture_size_{};
-    int settle_ = 2; // steps that ImGui still needs to come to rest after an event
+    int settle_ = 2; // steps that ImGui still needs after an event to complete its layout
     bool on_screen_ = false, told_idle_ = false, told_picture_ = false;
-    double last_step_ = 0, fading_until_ = 0; // what lies behind a dialog grows dark
+    double last_step_ = 0, fading_until_ = 0; // ImGui dims the window behind a dialog
     Dialog shown_dialog_ = Dialog::None;
     std::size_t shown_notices_ = 0;
     std::uint64_t frames_ = 0, pictures_ = 0;

@@ -10,7 +10,7 @@
 namespace demo_command {
 namespace {
 
-/// Confirm, or leave. Returns whether it was confirmed.
+/// Draws the confirm and cancel buttons; both close the dialog. Returns whether it was confirmed.
 bool buttons(DemoState& state, const char* confirm, bool possible = true)
 {
     ImGui::Spacing();
@@ -23,7 +23,7 @@ bool buttons(DemoState& state, const char* confirm, bool possible = true)
     return confirmed;
 }
 
-/// A file's name; Enter confirms.
+/// A field for a file's name. Returns whether Enter was pressed, which confirms the dialog.
 bool path_field(DemoState& state, const char* label)
 {
     ImGui::SetNextItemWidth(460 * state.scale);
@@ -75,22 +75,22 @@ void draw_open(DemoState& state)
 
 void draw_save_scene(DemoState& state)
 {
-    ImGui::TextDisabled("Head, wounds, light, camera and shading, as JSON; cicatrix capture reads it, too.");
+    ImGui::TextDisabled("Head, wounds, light, camera and shading, as JSON; cicatrix capture can read it.");
     const bool entered = path_field(state, "file");
     if (buttons(state, save_or_replace(state.entries.path), !state.entries.path.empty()) || entered)
         state.wishes.save_scene = state.entries.path;
 }
 
-void say_split(const DemoState& state)
+void note_split_view(const DemoState& state)
 {
     if (state.compare != Compare::Nothing)
-        ImGui::TextDisabled("Both sides of the split view, as the divider stands.");
+        ImGui::TextDisabled("Both sides of the split view, with the divider where it is now.");
 }
 
 void draw_save_picture(DemoState& state)
 {
-    ImGui::TextDisabled("The face as the camera stands, on this day, without the controls.");
-    say_split(state);
+    ImGui::TextDisabled("The face from the present camera, on this day, without the controls.");
+    note_split_view(state);
     const bool entered = path_field(state, "file");
     size_field(state);
     if (buttons(state, save_or_replace(state.entries.path), !state.entries.path.empty()) || entered)
@@ -99,8 +99,8 @@ void draw_save_picture(DemoState& state)
 
 void draw_film(DemoState& state)
 {
-    ImGui::TextDisabled("All days of the timeline, as the camera stands.");
-    say_split(state);
+    ImGui::TextDisabled("All days of the timeline, from the present camera.");
+    note_split_view(state);
     const bool entered = path_field(state, "file");
     size_field(state);
     ImGui::SetNextItemWidth(160 * state.scale);
@@ -121,7 +121,7 @@ void draw_recording(DemoState& state)
             {float(state.entries.pixels[0]) * state.scale, float(state.entries.pixels[1]) * state.scale});
     ImGui::ProgressBar(float(state.recorded),
                        {std::max(320.0f, float(state.entries.pixels[0])) * state.scale, 0});
-    if (ImGui::Button("Stop, keep nothing"))
+    if (ImGui::Button("Stop without saving"))
         state.wishes.stop_film = true;
 }
 
@@ -161,7 +161,7 @@ void draw_photo(DemoState& state)
 void draw_area(DemoState& state)
 {
     ImGui::TextDisabled("Draw a rectangle around the wound, with a little skin on every side.\n"
-                        "Without one, the wound is looked for in the whole photo.");
+                        "Without one, the whole photo is searched for the wound.");
     if (state.entries.picture)
         draw_photo(state);
     const bool entered =
@@ -181,7 +181,7 @@ void draw_quit(DemoState& state)
         state.entries.quit_when_saved = true;
     }
     ImGui::SameLine();
-    state.wishes.quit |= ImGui::Button("Quit without saving"); // asked for again, it is granted
+    state.wishes.quit |= ImGui::Button("Quit without saving"); // may_close() allows it in this dialog
     ImGui::SameLine();
     if (ImGui::Button("Cancel"))
         state.dialog = Dialog::None;
@@ -206,7 +206,7 @@ constexpr std::array<DialogPage, 8> pages{{{Dialog::Recording, "Recording", draw
                                                     state.dialog = Dialog::None;
                                             }}}};
 
-/// The name a file had before, or one that says what it is.
+/// The file that the scene has, or a default name.
 std::string suggested_path(const DemoState& state, Dialog dialog)
 {
     const std::string stem = state.scene_file.empty() ? "cicatrix" : state.scene_file.stem().string();

@@ -10,13 +10,13 @@
 namespace demo_command {
 namespace {
 
-/// Radius of a wound's outline, metres.
+/// Radius of a wound's outline, m.
 double radius_of(const head::Anchor& anchor)
 {
     return anchor.half_width_m * wound::wound_share;
 }
 
-constexpr double handle_distance = 1.45; // of the roll handle from the centre, in radii
+constexpr double handle_distance = 1.45; // of the roll handle from the centre, in outline radii
 
 } // namespace
 
@@ -124,7 +124,7 @@ void set_published(scene::Scene& scene, bool published, const scene::Scene& mend
         scene.wounds[i].healing.model =
             i < mended.wounds.size() ? mended.wounds[i].healing.model : scene::Wound{}.healing.model;
     std::vector<scene::Light> lights = mended.lights;
-    if (!lights.empty() && !scene.lights.empty()) // it may have been moved meanwhile
+    if (!lights.empty() && !scene.lights.empty()) // the user may have moved the key light since
         lights.front().from = scene.lights.front().from;
     scene.lights = lights;
 }

@@ -1,4 +1,4 @@
-// What the demo's gestures and buttons do to a scene. Values in, values out: no window, no device.
+// The edits that the demo's gestures and buttons make to a scene. Pure functions: no window, no device.
 #pragma once
 #include <glm/glm.hpp>
 #include <optional>
@@ -10,16 +10,16 @@
 
 namespace demo_command {
 
-/// From the head's metres to a picture and back. Pictures are measured in 0..1 from their upper left corner.
+/// Maps points in the head's coordinates (m) to the picture (0..1 from the upper left corner) and back.
 class Sight
 {
   public:
     Sight() = default;
     explicit Sight(const shared::View& view);
 
-    /// None behind the camera.
+    /// None for a point behind the camera.
     std::optional<glm::dvec2> project(const glm::dvec3& point) const;
-    /// Where the ray through a point of the picture meets a plane; none when it never does.
+    /// Where the ray through picture point `at` meets the plane; none when it does not.
     std::optional<glm::dvec3> on_plane(const glm::dvec2& at, const glm::dvec3& centre,
                                        const glm::dvec3& normal) const;
     const glm::dvec3& eye() const { return eye_; }
@@ -29,33 +29,34 @@ class Sight
     glm::dvec3 eye_{0};
 };
 
-/// The corners of a wound's outline and its two handles, as the viewer sees them, in 0..1 of the picture.
+/// A wound's outline and its two handles, in the picture (0..1).
 struct WoundOutline
 {
-    std::vector<glm::dvec2> ring;
+    std::vector<glm::dvec2> ring; // corners of the outline
     glm::dvec2 centre{0}, width_handle{0}, roll_handle{0};
-    bool facing = false; // the camera
+    bool facing = false; // the wound faces the camera
 };
 std::optional<WoundOutline> outline_of(const head::Anchor& anchor, const Sight& sight);
 bool inside(const WoundOutline& outline, const glm::dvec2& at);
 
-/// As wide as from the centre to the pointer on both sides; within what a scene allows.
+/// Twice the distance from the centre to the pointer in the wound's plane, clamped to 2..200 mm; `width_mm`
+/// if the pointer misses the plane.
 double dragged_width_mm(const head::Anchor& anchor, const Sight& sight, const glm::dvec2& pointer,
                         double width_mm);
-/// Such that the roll handle points at the pointer.
+/// The roll that turns the roll handle towards the pointer.
 double dragged_roll_deg(const head::Anchor& anchor, const Sight& sight, const glm::dvec2& pointer,
                         double roll_deg);
 
-/// Turns a light around the face; stays within what a scene allows.
+/// Turns a light around the face; clamps its elevation to +-89 degrees.
 void turn(scene::Direction& from, double right_deg, double up_deg);
 
-/// Whether the scene is all as the paper prints it.
+/// Whether all settings are those of the paper (published mode).
 bool is_published(const scene::Scene& scene);
-/// Makes it so, or takes the mended equations and coefficients from `mended`, as far as published mode had
-/// replaced them.
+/// Switches published mode on, or off: then takes from `mended` the corrected equations and coefficients that
+/// published mode had replaced.
 void set_published(scene::Scene& scene, bool published, const scene::Scene& mended);
 
-/// A default wound unlike those there are; the caller places it.
+/// A default wound with a seed that no other synthetic wound has; the caller sets its place.
 scene::Wound next_wound(const scene::Scene& scene);
 
 } // namespace demo_command

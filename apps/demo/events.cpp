@@ -9,11 +9,10 @@
 namespace demo_command {
 namespace {
 
-/// Since this process was made, before main() and before its libraries were loaded; in steps of 10 ms.
+/// ms since the kernel created this process, before main() and the loading of libraries; resolution 10 ms.
 double since_start_ms()
 {
-    // Field 22 of the process's line: clock ticks from the machine's start; the name in field 2 may hold
-    // blanks.
+    // proc(5): field 22 is the start time in clock ticks since boot; the name in field 2 may contain blanks.
     std::string stat;
     std::getline(std::ifstream("/proc/self/stat"), stat);
     std::istringstream fields(stat.substr(std::min(stat.rfind(')') + 2, stat.size())));

@@ -1,5 +1,5 @@
-// What the window has done, one JSON object a line, for tests that drive it: they wait for an event instead
-// of a time.
+// A log of the window's events, one JSON object per line, for tests that drive the window: they wait for an
+// event instead of a time.
 #pragma once
 #include <filesystem>
 #include <fstream>
@@ -10,11 +10,11 @@ namespace demo_command {
 class DemoEvents
 {
   public:
-    /// An empty path: nobody listens. Throws base::InputError when the file cannot be written.
+    /// An empty path writes nothing. Throws base::InputError when the file cannot be written.
     explicit DemoEvents(const std::filesystem::path& file);
 
     bool wanted() const { return stream_.is_open(); }
-    /// Written at once.
+    /// Adds "event" and "ms" (since the start of the process) to `details`; flushes at once.
     void tell(const std::string& event, nlohmann::json details = nlohmann::json::object());
 
   private:

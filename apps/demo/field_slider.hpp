@@ -1,4 +1,4 @@
-// A slider for a number of the scene, as the table of its fields has it.
+// A slider for a number of the scene; label, range and format come from the field table.
 #pragma once
 #include <imgui.h>
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace demo_command {
 
-/// `name`: of a field with a slider.
+/// `name`: a field that has a slider.
 template <typename Object>
 void draw_slider(const std::vector<scene::Field<Object>>& fields, std::string_view name, Object& object)
 {

@@ -1,4 +1,4 @@
-// The demo's edits and files: what the interface wishes, done to the scene, the stage and the disk.
+// The demo's edits and files: carries out the requests of the interface (DemoState::Wishes).
 #include <algorithm>
 #include <fmt/format.h>
 #include <imgui.h>
@@ -12,7 +12,7 @@
 namespace demo_command {
 namespace {
 
-constexpr std::size_t most_wounds = 7;
+constexpr std::size_t max_wounds = 7;
 
 std::string lower_extension(const std::filesystem::path& file)
 {
@@ -22,8 +22,8 @@ std::string lower_extension(const std::filesystem::path& file)
     return extension;
 }
 
-/// Settings of `scene` seen by the camera, and with the wounds and lights where they are, of `now`.
-scene::Scene as_seen_in(scene::Scene scene, const scene::Scene& now)
+/// `scene` with the camera of `now`.
+scene::Scene with_camera_of(scene::Scene scene, const scene::Scene& now)
 {
     scene.camera = now.camera;
     return scene;
@@ -54,9 +54,9 @@ void DemoWindow::apply_edits()
     grant_wishes();
     show_scene();
     attempt([&] { match_comparison(); });
-    // A step of undo is what the user did without letting go. Where the camera stands is none.
+    // One undo step is one whole drag or input. Camera moves are not undo steps.
     const bool busy = state_.moving || ImGui::IsAnyItemActive();
-    if (!busy && as_seen_in(state_.scene, history_.now()) != history_.now())
+    if (!busy && with_camera_of(state_.scene, history_.now()) != history_.now())
         history_.edit(state_.scene, "");
 }
 
@@ -69,7 +69,7 @@ void DemoWindow::show_scene()
             settle_ = 2;
     } catch (const base::InputError& error) {
         state_.notices.fail(error.what());
-        state_.scene = as_seen_in(stage_->scene(), state_.scene);
+        state_.scene = with_camera_of(stage_->scene(), state_.scene);
         settle_ = 2;
     }
 }
@@ -77,7 +77,7 @@ void DemoWindow::show_scene()
 scene::Scene DemoWindow::compared_scene() const
 {
     if (state_.compare == Compare::Kept && state_.kept)
-        return as_seen_in(*state_.kept, state_.scene);
+        return with_camera_of(*state_.kept, state_.scene);
     scene::Scene scene = state_.scene;
     if (state_.compare == Compare::Mode)
         set_published(scene, !is_published(scene), state_.mended);
@@ -101,12 +101,12 @@ void DemoWindow::match_comparison()
 
 bool DemoWindow::unsaved() const
 {
-    return stage_ && as_seen_in(state_.scene, on_disk_) != on_disk_;
+    return stage_ && with_camera_of(state_.scene, on_disk_) != on_disk_;
 }
 
 void DemoWindow::go_to(const scene::Scene& scene)
 {
-    state_.scene = as_seen_in(scene, state_.scene);
+    state_.scene = with_camera_of(scene, state_.scene);
     settle_ = 2;
 }
 
@@ -150,11 +150,11 @@ void DemoWindow::put_wound(const glm::dvec2& at)
 {
     const auto place = place_at(at);
     if (!place) {
-        state_.selected.reset(); // beside the head
+        state_.selected.reset(); // the click missed the head
         return;
     }
-    if (state_.scene.wounds.size() >= most_wounds) {
-        state_.notices.say(fmt::format("A scene has room for {} wounds; delete one first.", most_wounds),
+    if (state_.scene.wounds.size() >= max_wounds) {
+        state_.notices.say(fmt::format("A scene has room for {} wounds; delete one first.", max_wounds),
                            now_s());
         return;
     }
@@ -192,7 +192,7 @@ void DemoWindow::open(const std::filesystem::path& file)
 void DemoWindow::open_scene(const std::filesystem::path& file)
 {
     const scene::Scene scene = scene::read_scene(file);
-    stage_->update(scene); // throws what it does not take, before anything here changes
+    stage_->update(scene); // throws for an invalid scene, before any state here changes
     on_disk_ = state_.scene = scene;
     state_.scene_file = file;
     state_.selected.reset();
@@ -224,7 +224,7 @@ void DemoWindow::show_in_dialog(const cv::Mat3b& picture)
         cv::resize(picture, small, {}, shrink, shrink, cv::INTER_AREA);
     cv::Mat4b rgba;
     cv::cvtColor(small, rgba, cv::COLOR_RGB2RGBA);
-    vkQueueWaitIdle(renderer_->device.queue()); // the last frame may still show the old one
+    vkQueueWaitIdle(renderer_->device.queue()); // the last frame may still use the old texture
     photo_ = std::make_unique<gpu::Texture>(renderer_->device, rgba, gpu::Encoding::Linear, false, "photo");
     state_.entries.picture = photo_.get();
 }
@@ -235,9 +235,9 @@ void DemoWindow::use_photo()
     std::vector<scene::Wound>& wounds = state_.scene.wounds;
     std::optional<std::size_t> index = entries.wound;
     if (!index && wounds.size() == 1 && wounds.front().photo.empty())
-        index = 0; // in place of the default wound
-    if (!index && wounds.size() >= most_wounds)
-        index = most_wounds - 1;
+        index = 0; // replaces the default wound
+    if (!index && wounds.size() >= max_wounds)
+        index = max_wounds - 1;
     if (!index) {
         index = wounds.size();
         wounds.push_back(next_wound(state_.scene));
@@ -266,7 +266,7 @@ void DemoWindow::save_scene(std::filesystem::path file)
 
 cv::Mat3b DemoWindow::picture_of(double day, const stage::DrawOptions& options)
 {
-    picture_ = VK_NULL_HANDLE; // the executor makes room for another size
+    picture_ = VK_NULL_HANDLE; // drawing another size may free the image
     const head::Camera camera = stage_->loaded().camera();
     cv::Mat3b picture = stage::draw(*renderer_, *stage_, {day, "", camera, ""}, options).picture;
     if (!compared_)
@@ -310,14 +310,14 @@ void DemoWindow::start_film(std::filesystem::path file)
     });
 }
 
-/// One picture at a time, so that the window stays alive.
+/// Records one frame of the film per step, so that the window stays responsive.
 void DemoWindow::record_picture()
 {
-    const auto end = [&](const std::string& word) {
+    const auto end = [&](const std::string& notice) {
         recording_.reset();
         state_.dialog = Dialog::None;
-        if (!word.empty())
-            state_.notices.say(word, now_s());
+        if (!notice.empty())
+            state_.notices.say(notice, now_s());
         settle_ = 2;
     };
     if (std::exchange(state_.wishes.stop_film, false)) {

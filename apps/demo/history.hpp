@@ -1,4 +1,4 @@
-// Undo and redo: a scene is a value, so the history is the values it has had.
+// Undo and redo: keeps the earlier values of the scene.
 #pragma once
 #include <string>
 #include <utility>
@@ -14,8 +14,8 @@ class History
     explicit History(scene::Scene first) { values_.push_back(std::move(first)); }
 
     const scene::Scene& now() const { return values_[at_]; }
-    /// The scene after an edit; nothing when it is equal to now(). Edits of the same kind ("move wound 1") in
-    /// a row are one step, until settle(): a whole drag is undone at once. What was undone is dropped.
+    /// Adds the edited scene and drops undone steps; ignores a scene equal to now(). Consecutive edits of one
+    /// nonempty kind ("move wound 1") are one step until settle(), so a whole drag is undone at once.
     void edit(scene::Scene scene, const std::string& kind)
     {
         if (scene == now())
@@ -32,12 +32,12 @@ class History
             --at_;
         }
     }
-    /// The drag is over (the button was released): the next edit is a step of its own.
+    /// Ends a drag: the next edit becomes a new step.
     void settle() { kind_.clear(); }
 
     bool can_undo() const { return at_ > 0; }
     bool can_redo() const { return at_ + 1 < values_.size(); }
-    /// Return the scene to show; the present one when there is no step to take.
+    /// undo(), redo(): return the scene to show, which is the present one when there is no step.
     const scene::Scene& undo()
     {
         settle();
@@ -52,10 +52,10 @@ class History
     }
 
   private:
-    static constexpr std::size_t most = 500; // a few kilobytes each
+    static constexpr std::size_t most = 500; // scenes of a few kilobytes each
     std::vector<scene::Scene> values_;
     std::size_t at_ = 0;
-    std::string kind_; // of the edit that goes on; empty: none does
+    std::string kind_; // kind of the edit in progress; empty: none
 };
 
 } // namespace demo_command

@@ -1,4 +1,4 @@
-// The demo's keys, and the page that lists them: one table for both.
+// The demo's keyboard shortcuts and the help page: one table for both.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <imgui.h>
@@ -12,7 +12,7 @@ struct Shortcut
 {
     int key;
     bool control, shift;
-    const char* keys; // as people read it
+    const char* keys; // for the help page; null: not listed
     const char* does;
     void (*act)(DemoState&);
 };
@@ -35,17 +35,19 @@ void look_from(DemoState& state, double azimuth_deg)
 
 const Shortcut shortcuts[] = {
     {GLFW_KEY_SPACE, false, false, "Space", "play or pause", [](DemoState& s) { s.playback.toggle(); }},
-    {GLFW_KEY_RIGHT, false, false, "Right, Left", "a day on, a day back",
+    {GLFW_KEY_RIGHT, false, false, "Right, Left", "next day, previous day",
      [](DemoState& s) { step_days(s, 1); }},
     {GLFW_KEY_LEFT, false, false, nullptr, nullptr, [](DemoState& s) { step_days(s, -1); }},
-    {GLFW_KEY_RIGHT, false, true, "Shift+Right, Shift+Left", "a week", [](DemoState& s) { step_days(s, 7); }},
+    {GLFW_KEY_RIGHT, false, true, "Shift+Right, Shift+Left", "a week on, a week back",
+     [](DemoState& s) { step_days(s, 7); }},
     {GLFW_KEY_LEFT, false, true, nullptr, nullptr, [](DemoState& s) { step_days(s, -7); }},
-    {GLFW_KEY_UP, false, false, "Up, Down", "faster, slower", [](DemoState& s) { change_speed(s, 2); }},
+    {GLFW_KEY_UP, false, false, "Up, Down", "faster, slower playback",
+     [](DemoState& s) { change_speed(s, 2); }},
     {GLFW_KEY_DOWN, false, false, nullptr, nullptr, [](DemoState& s) { change_speed(s, .5); }},
-    {GLFW_KEY_0, false, false, "0", "back to the first day", [](DemoState& s) { step_days(s, -1e6); }},
+    {GLFW_KEY_0, false, false, "0", "go to day 0", [](DemoState& s) { step_days(s, -1e6); }},
     {GLFW_KEY_DELETE, false, false, "Delete", "delete the selected wound", delete_selected},
     {GLFW_KEY_BACKSPACE, false, false, nullptr, nullptr, delete_selected},
-    {GLFW_KEY_P, false, false, "P", "published or corrected",
+    {GLFW_KEY_P, false, false, "P", "switch published / corrected",
      [](DemoState& s) {
          const bool published = is_published(s.scene);
          if (!published)
@@ -54,7 +56,7 @@ const Shortcut shortcuts[] = {
      }},
     {GLFW_KEY_C, false, false, "C", "split view: published beside corrected",
      [](DemoState& s) { s.compare = s.compare == Compare::Nothing ? Compare::Mode : Compare::Nothing; }},
-    {GLFW_KEY_HOME, false, false, "Home", "camera as at first",
+    {GLFW_KEY_HOME, false, false, "Home", "reset the camera",
      [](DemoState& s) { s.scene.camera = scene::Camera{}; }},
     {GLFW_KEY_1, false, false, "1, 2, 3", "look from the left, the front, the right",
      [](DemoState& s) { look_from(s, -80); }},
@@ -75,14 +77,14 @@ const Shortcut shortcuts[] = {
     {GLFW_KEY_R, true, false, "Ctrl+R", "record a film", [](DemoState& s) { open_dialog(s, Dialog::Film); }},
     {GLFW_KEY_Q, true, false, "Ctrl+Q", "quit", [](DemoState& s) { s.wishes.quit = true; }},
     {GLFW_KEY_F1, false, false, "F1", "this page", [](DemoState& s) { open_dialog(s, Dialog::Help); }},
-    {GLFW_KEY_ESCAPE, false, false, "Esc", "close a dialog; let go of the wound",
+    {GLFW_KEY_ESCAPE, false, false, "Esc", "close a dialog; deselect the wound",
      [](DemoState& s) { s.selected.reset(); }},
 };
 
 constexpr std::array<std::array<const char*, 2>, 8> gestures{{
     {"Drag the head", "turn it"},
     {"Middle button, Shift+drag", "move it in the picture"},
-    {"Wheel", "nearer, farther"},
+    {"Wheel", "zoom"},
     {"Right button, or the sun", "drag the light"},
     {"Click on skin", "a new wound there"},
     {"Click on a wound", "select it"},

@@ -50,7 +50,7 @@ void draw_wound(DemoState& state, scene::Wound& wound)
         delete_selected(state);
 }
 
-/// The open wound's area over the days, today, and the border's.
+/// Plots the area of the open wound and the area inside its border over the days, and marks today.
 void draw_curve(const DemoState& state, const wound::Healing& healing)
 {
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -132,7 +132,7 @@ void draw_panels(DemoState& state)
             scene::Wound edited = wounds[*state.selected];
             const std::size_t index = *state.selected;
             draw_wound(state, edited);
-            if (state.selected) // not deleted
+            if (state.selected) // the wound was not deleted
                 wounds[index] = edited;
         }
     }

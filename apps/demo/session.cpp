@@ -8,7 +8,7 @@
 namespace demo_command {
 namespace {
 
-constexpr double scar_days = 366, days_per_month = 30.4; // a year of the scar is shown
+constexpr double scar_days = 366, days_per_month = 30.4; // the timeline shows the scar for a year
 
 } // namespace
 
@@ -89,13 +89,13 @@ void Playback::seek(double to)
 void Quality::rendered(double scale, double ms)
 {
     rendered_scale_ = scale;
-    // Cost grows with the number of pixels, less so when the picture is small.
+    // Cost grows with the number of pixels, but less for small pictures: about as scale^1.5.
     const double full_ms = ms / std::pow(scale, 1.5);
     constexpr std::array steps{1.0, .75, .5, .35, .25};
     const double fitting = std::pow(wanted_ms / std::max(full_ms, 1e-3), 1 / 1.5);
     const auto step = std::ranges::find_if(steps, [&](double s) { return s <= fitting; });
     const double next = step == steps.end() ? steps.back() : *step;
-    // A change of size makes images anew: up only when there is room to spare.
+    // A new size needs new images, so enlarge only by more than 20 %.
     if (next < moving_scale_ || next > 1.2 * moving_scale_)
         moving_scale_ = next;
 }

@@ -1,5 +1,5 @@
-// What the demo's user is doing, apart from how it is drawn: the day and whether time runs, what is selected,
-// messages, and at which size to render while something moves. No Dear ImGui, no Vulkan.
+// State of the demo that does not depend on drawing: timeline, playback, notices, and the render size while
+// something moves. No Dear ImGui, no Vulkan.
 #pragma once
 #include <chrono>
 #include <deque>
@@ -12,7 +12,7 @@ namespace demo_command {
 /// Seconds on a steady clock.
 double now_s();
 
-/// Days along the timeline: the open wound at one scale, then the scar's months ever denser.
+/// Maps days to the timeline: linear while the wound is open, then logarithmic for the scar's months.
 class TimelineAxis
 {
   public:
@@ -20,11 +20,11 @@ class TimelineAxis
     explicit TimelineAxis(double closure_day, double least_days = 30);
     TimelineAxis() : TimelineAxis(30) {}
 
-    double day_at(double fraction) const; // of the axis, 0..1
+    double day_at(double fraction) const; // `fraction` of the axis, 0..1
     double fraction_of(double day) const; // the inverse
     double last_day() const { return last_day_; }
     double closure_day() const { return closure_day_; }
-    /// Where the scale changes.
+    /// Day at which the scale changes from linear to logarithmic.
     double even_until() const { return even_days_; }
 
     struct Tick
@@ -32,7 +32,7 @@ class TimelineAxis
         double day;
         std::string label;
     };
-    /// Days, weeks or months as there is room, at most `most`.
+    /// Tick labels in days and, for the scar, months; `most`: about the largest number of labels.
     std::vector<Tick> ticks(std::size_t most) const;
     bool operator==(const TimelineAxis&) const = default;
 
@@ -40,32 +40,32 @@ class TimelineAxis
     double closure_day_, even_days_, last_day_, even_share_;
 };
 
-/// Time running over the days.
+/// Playback of the days.
 struct Playback
 {
     TimelineAxis axis;
     double day = 0;
-    double days_per_second = 3; // while the wound is open; the scar's months pass as fast along the axis
+    double days_per_second = 3; // while the wound is open; the marker keeps its speed along the axis later
     bool playing = false;
 
-    /// From the beginning when it stands at the end.
+    /// Starts from day 0 when the marker is at the end.
     void toggle();
     /// Stops at the last day.
     void advance(double seconds);
     void seek(double to);
 };
 
-/// While the picture moves it is rendered smaller, so that it can follow; when it stands still, once in full.
+/// Chooses the render scale: reduced while something moves, to keep the frame rate, and full once at rest.
 class Quality
 {
   public:
-    /// A picture was rendered at `scale` (1: full size) in `ms`.
+    /// Reports that a picture was rendered at `scale` (1: full size) in `ms`.
     void rendered(double scale, double ms);
-    /// Something moves, at the time `now`.
+    /// Reports that something moves at time `now` (s).
     void moving(double now) { moving_until_ = now + calm_s; }
-    /// At which scale to render now: 1 or less.
+    /// The scale to render at: 0.25..1.
     double scale(double now) const { return now < moving_until_ ? moving_scale_ : 1; }
-    /// Seconds until the full picture is due; none when it is there already.
+    /// Seconds until the full picture is due; none when the last picture was full.
     std::optional<double> due_in(double now) const;
 
   private:
@@ -73,7 +73,7 @@ class Quality
     double moving_scale_ = 1, moving_until_ = -1, rendered_scale_ = 1;
 };
 
-/// Lines for the user that go after a while; errors stay until they are clicked away.
+/// A message for the user. Errors stay until dismissed, others disappear at the time `until` (s).
 struct Notice
 {
     std::string text;
@@ -88,12 +88,12 @@ class Notices
     void fail(const std::string& text) { add({text, true, 0}); }
     void drop_old(double now);
     void dismiss(std::size_t index) { list_.erase(list_.begin() + std::ptrdiff_t(index)); }
-    /// When the next one goes; none: no need to wake.
+    /// When the next notice disappears; none: never.
     std::optional<double> next_change() const;
     const std::deque<Notice>& list() const { return list_; }
 
   private:
-    void add(Notice notice); // once only, as the latest
+    void add(Notice notice); // at the end; removes an earlier notice with the same text
 
     std::deque<Notice> list_;
 };

@@ -11,7 +11,7 @@
 namespace demo_command {
 namespace {
 
-/// From fresh blood to the pale scar.
+/// Colour of a phase: from fresh blood to the pale scar.
 ImU32 color_of(std::size_t phase, std::size_t count)
 {
     constexpr std::array<ImU32, 5> course{IM_COL32(112, 32, 32, 255), IM_COL32(150, 74, 44, 255),
@@ -27,7 +27,7 @@ const wound::Healing& shown_healing(const DemoState& state)
     return wounds.empty() ? none : wounds[std::min(state.selected.value_or(0), wounds.size() - 1)].healing;
 }
 
-/// On its stretch if it fits there.
+/// Draws the name between `left` and `right` if it fits.
 void name_phase(ImDrawList& list, const char* name, float left, float right, float top)
 {
     const ImVec2 size = ImGui::CalcTextSize(name);

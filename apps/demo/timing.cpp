@@ -1,4 +1,4 @@
-// What the last frame cost: a stacked bar of its passes, and for each whether it ran, was skipped or culled.
+// Times of the last frame: a stacked bar of its passes, and whether each pass ran, was skipped or culled.
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -75,7 +75,7 @@ void draw_timing(DemoState& state)
         ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch);
         ImGui::TableSetupColumn("state", ImGuiTableColumnFlags_WidthFixed);
         ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed,
-                                ImGui::CalcTextSize("0000.00 ms").x); // not as the first row happens to be
+                                ImGui::CalcTextSize("0000.00 ms").x); // independent of the first row
         for (std::size_t i = 0; i < state.passes.size(); ++i)
             draw_pass(state, i);
         ImGui::EndTable();

@@ -39,7 +39,7 @@ void edit_menu(DemoState& state)
 void view_menu(DemoState& state)
 {
     ImGui::MenuItem("Panels", "Tab", &state.panels);
-    if (ImGui::MenuItem("Camera as at first", "Home"))
+    if (ImGui::MenuItem("Reset camera", "Home"))
         state.scene.camera = scene::Camera{};
     ImGui::Separator();
     const auto compare = [&](const char* name, const char* key, Compare which, bool possible = true) {
@@ -48,7 +48,7 @@ void view_menu(DemoState& state)
     };
     compare("Split: corrected | published", "C", Compare::Mode);
     compare("Split: today | day 0", nullptr, Compare::Day0);
-    compare("Split: present settings | kept ones", nullptr, Compare::Kept, state.kept.has_value());
+    compare("Split: present settings | kept settings", nullptr, Compare::Kept, state.kept.has_value());
     if (ImGui::MenuItem("Keep these settings for comparison"))
         state.kept = state.scene;
 }
@@ -102,7 +102,7 @@ void draw_notices(DemoState& state)
     const float gap = 12 * state.scale;
     ImGui::SetNextWindowPos({view.left + gap, view.top + view.height - gap}, 0, {0, 1});
     ImGui::SetNextWindowBgAlpha(.88f);
-    // Without NoBringToFrontOnFocus, which would put it behind the view.
+    // No NoBringToFrontOnFocus here: it would put the notices behind the view.
     ImGui::Begin("notices", nullptr,
                  fixed_window | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
     for (std::size_t i = 0; i < state.notices.list().size(); ++i)

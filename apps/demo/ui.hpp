@@ -1,5 +1,5 @@
-// The demo's interface: what it shows and edits, and the functions that draw it with Dear ImGui. They read
-// and change the state; whatever needs the device or a file is left as a wish for the window's loop.
+// The demo's user interface: its state and the functions that draw it with Dear ImGui. They read and change
+// the state; requests that need the device or a file are left in DemoState::Wishes for DemoWindow.
 #pragma once
 #include <array>
 #include <filesystem>
@@ -17,13 +17,13 @@
 
 namespace demo_command {
 
-/// Where things are, in ImGui's units.
+/// A rectangle in ImGui's units.
 struct Rectangle
 {
     float left = 0, top = 0, width = 0, height = 0;
 };
 
-/// What is dragged in the picture.
+/// What the mouse drags in the picture.
 enum class Drag : std::uint8_t
 {
     None,
@@ -40,7 +40,7 @@ enum class Drag : std::uint8_t
 enum class Compare : std::uint8_t
 {
     Nothing,
-    Mode, // what is corrected on the left as published, or the other way round
+    Mode, // the other mode: published if the left half is corrected, and vice versa
     Day0, // the day of the photograph
     Kept  // the settings that were kept
 };
@@ -52,21 +52,21 @@ enum class Dialog : std::uint8_t
     SaveScene,
     SavePicture,
     Film,
-    Recording, // of a film, under way
-    Area,      // of the wound in a photograph
+    Recording, // progress of a film being recorded
+    Area,      // rectangle around the wound in a photograph
     Help,
-    Quit // with edits that are not saved
+    Quit // asked when edits are not saved
 };
 
-/// What only the stage knows and the interface shows.
+/// Facts about the stage that the interface shows.
 struct StageFacts
 {
     std::vector<head::Anchor> anchors;     // of the placed wounds
-    std::vector<std::size_t> scene_wounds; // of which wound of the scene each is one
+    std::vector<std::size_t> scene_wounds; // for each anchor, the index of its wound in the scene
     Sight sight;                           // of the picture in the view
     glm::dvec3 head_middle{0};
-    double camera_distance_m = 1; // the camera's, also where the scene leaves it open
-    bool pending = false;         // workers are busy
+    double camera_distance_m = 1; // from the target, also when the scene does not set it
+    bool pending = false;         // wounds or tables are being prepared
 };
 
 struct DemoState
@@ -75,34 +75,34 @@ struct DemoState
     Playback playback;
     Notices notices;
     StageFacts stage;
-    std::optional<std::size_t> selected; // wound of the scene
-    scene::Scene mended;                 // what published mode replaced
+    std::optional<std::size_t> selected; // index of a wound of the scene
+    scene::Scene mended;                 // the corrected settings that published mode replaced
     Compare compare = Compare::Nothing;
     std::optional<scene::Scene> kept; // for comparison
-    double divider = .5;              // of the view
+    double divider = .5;              // position in the view, 0..1
     bool panels = true;
     bool loading = true;
     bool can_undo = false, can_redo = false;
-    std::string device; // its name
+    std::string device; // name of the Vulkan device
     float scale = 1;    // of the interface
 
     // Of the last picture.
     std::vector<gpu::PassResult> passes;
     double frame_ms = 0, render_scale = 1;
 
-    Rectangle view, timeline; // laid out by draw_demo
+    Rectangle view, timeline; // set by draw_demo()
     bool moving = false;      // something is being dragged
 
     struct Mouse
     {
         Drag drag = Drag::None;
-        float travelled = 0;   // since the button went down
-        glm::dvec2 grip{0};    // from the pointer to what is held, in 0..1 of the view
-        bool on_wound = false; // what was pressed
+        float travelled = 0;   // since the button was pressed, ImGui units
+        glm::dvec2 grip{0};    // offset from the pointer to the dragged point, 0..1 of the view
+        bool on_wound = false; // the button was pressed on a wound
     } mouse;
 
     Dialog dialog = Dialog::None;
-    struct Entries // of the dialogs
+    struct Entries // in the dialogs
     {
         std::string path;
         std::array<int, 2> size{1280, 720};
@@ -112,38 +112,38 @@ struct DemoState
         std::filesystem::path photo;
         const gpu::Texture* picture = nullptr;
         std::array<int, 2> pixels{};
-        Rectangle shown;                     // where the photograph is
+        Rectangle shown;                     // where the photograph is drawn
         std::optional<cv::Rect2d> rectangle; // pixels of the photograph
-        std::optional<std::size_t> wound;    // none: a new one
+        std::optional<std::size_t> wound;    // none: a new wound
         bool quit_when_saved = false;
     } entries;
-    double recorded = 0;              // of a film, 0..1
-    std::filesystem::path scene_file; // where it was read from or saved to
+    double recorded = 0;              // part of the film, 0..1
+    std::filesystem::path scene_file; // last read or saved
 
     struct Wishes
     {
         bool quit = false, undo = false, redo = false;
-        std::optional<glm::dvec2> wound_at; // put a new one there; 0..1 of the view
-        std::optional<glm::dvec2> move_to;  // the selected one
+        std::optional<glm::dvec2> wound_at; // put a new wound there; 0..1 of the view
+        std::optional<glm::dvec2> move_to;  // move the selected wound there
         std::optional<std::filesystem::path> open, save_scene, save_picture, film;
         std::optional<std::size_t> photo_area; // show the dialog for this wound's photograph
-        bool use_photo = false;                // as the dialog has it
+        bool use_photo = false;                // with the rectangle in the dialog
         bool stop_film = false;
     } wishes;
 };
 
-/// Everything but the picture, which lies in `view`.
+/// Draws everything except the picture, which DemoWindow puts into `view`.
 void draw_demo(DemoState& state);
 
-// Parts of it, each in a file of its own.
+// Parts of the interface, each in its own file.
 void draw_timeline(DemoState& state);
 void draw_panels(DemoState& state);
-void draw_looks(DemoState& state); // panels for light, shading and comparison
+void draw_looks(DemoState& state); // panels for skin, light, shading and comparison
 void draw_timing(DemoState& state);
-void draw_view(DemoState& state); // what lies over the picture, and the mouse in it
+void draw_view(DemoState& state); // overlays of the picture; handles the mouse in it
 void draw_dialogs(DemoState& state);
 
-/// `typing`: a text field has the keys, but for those with Ctrl and Esc in a dialog.
+/// Handles a key. `typing`: a text field has the focus, so only Ctrl keys and, in a dialog, Esc act.
 void press(DemoState& state, const window::KeyPress& key, bool typing);
 void draw_help(DemoState& state);
 

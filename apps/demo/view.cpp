@@ -30,7 +30,7 @@ bool near(const DemoState& state, const glm::dvec2& at, float units)
     return std::hypot(place.x - mouse.x, place.y - mouse.y) < units * state.scale;
 }
 
-/// The first light's sign: where it stands around the head, drawn on a ball about its middle.
+/// Symbol of the first light: its direction, drawn on a ball around the middle of the head.
 struct Sun
 {
     glm::dvec2 at{.5};
@@ -57,7 +57,7 @@ const head::Anchor* selected_anchor(const DemoState& state)
 {
     for (std::size_t i = 0; i < state.stage.anchors.size(); ++i)
         if (state.selected && state.stage.scene_wounds[i] == *state.selected)
-            return &state.stage.anchors[i]; // the first of its parts, which the scene places
+            return &state.stage.anchors[i]; // the first part of the wound; the scene sets its place
     return nullptr;
 }
 
@@ -97,7 +97,7 @@ Drag left_drag(DemoState& state, const glm::dvec2& at)
     return Drag::Turn;
 }
 
-void drag_on(DemoState& state, const glm::dvec2& at)
+void continue_drag(DemoState& state, const glm::dvec2& at)
 {
     const ImVec2 by = ImGui::GetIO().MouseDelta;
     state.mouse.travelled += std::abs(by.x) + std::abs(by.y);
@@ -140,7 +140,7 @@ void drag_on(DemoState& state, const glm::dvec2& at)
     }
 }
 
-void use_mouse(DemoState& state)
+void handle_mouse(DemoState& state)
 {
     const glm::dvec2 at = pointer(state);
     if (ImGui::IsItemActivated()) {
@@ -149,9 +149,9 @@ void use_mouse(DemoState& state)
                            : ImGui::IsMouseDown(ImGuiMouseButton_Middle) ? Drag::Pan
                                                                          : left_drag(state, at);
     } else if (ImGui::IsItemActive()) {
-        drag_on(state, at);
+        continue_drag(state, at);
     } else if (state.mouse.drag != Drag::None) {
-        drag_on(state, at); // the last of the way may have been covered in this frame
+        continue_drag(state, at); // the mouse may have moved before the release in this frame
         const bool clicked = state.mouse.travelled <= 4 * state.scale && state.mouse.drag == Drag::Turn;
         if (clicked)
             state.wishes.wound_at = at;
@@ -261,9 +261,9 @@ void draw_view(DemoState& state)
     ImGui::InvisibleButton("picture", {std::max(view.width, 1.0f), std::max(view.height, 1.0f)},
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                                ImGuiButtonFlags_MouseButtonMiddle);
-    use_mouse(state);
+    handle_mouse(state);
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    if (!state.loading && state.dialog != Dialog::Recording) { // which has no picture to lie over
+    if (!state.loading && state.dialog != Dialog::Recording) { // no picture while recording
         draw_sun(state, list);
         draw_selection(state, list);
         draw_divider(state, list);

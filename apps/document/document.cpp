@@ -32,7 +32,7 @@ std::vector<const CLI::Option*> options_of(const CLI::App& command)
     return shown;
 }
 
-/// "-h", "--help": as they are typed.
+/// All names of an option as typed: "-h", "--help".
 Strings spellings(const CLI::Option& option)
 {
     Strings all;
@@ -57,7 +57,7 @@ bool takes_value(const CLI::Option& option)
     return option.get_items_expected_max() > 0;
 }
 
-/// {a,b} of the type's name, where the option is a choice.
+/// The choices a, b of an option whose type name contains {a,b}; empty for other options.
 Strings choices_of(const CLI::Option& option)
 {
     const std::string type = option.get_type_name();
@@ -81,7 +81,7 @@ std::string replaced(std::string text, const std::vector<std::pair<char, std::st
     return result;
 }
 
-/// A line that troff prints as it stands.
+/// Escapes text for troff; line ends become .br requests.
 std::string troff(const std::string& text)
 {
     std::string line = replaced(text, {{'\\', "\\e"}, {'-', "\\-"}, {'\n', "\n.br\n"}});
@@ -118,7 +118,7 @@ std::string usage_of(const CLI::App& command)
     return usage;
 }
 
-/// One line, quoted for a shell within '...'.
+/// Makes text safe inside single quotes of a shell: ' becomes an apostrophe, line ends become blanks.
 std::string quoted(const std::string& text)
 {
     return replaced(text, {{'\'', "’"}, {'\n', " "}});
@@ -152,9 +152,9 @@ std::string man_page(const CLI::App& program, const std::string& version)
     }
     page += ".SH ENVIRONMENT\n.TP\n.B CICATRIX_DEVICE\nVulkan device by index or part of its name, where "
             "\\-\\-device is not given.\n.SH FILES\n.TP\n.I ~/.cache/cicatrix/head\\-v*.glb\nThe default "
-            "head, made once by cicatrix\\-fetch\\-head(1); XDG_CACHE_HOME moves it.\n.SH EXIT STATUS\n0 "
-            "when all "
-            "went well; else a line on standard error says where, what and the cure.\n.SH EXAMPLES\n.nf\n";
+            "head, made by cicatrix\\-fetch\\-head(1); XDG_CACHE_HOME replaces ~/.cache.\n.SH EXIT STATUS\n0 "
+            "on "
+            "success; otherwise standard error names the place, the error and a remedy.\n.SH EXAMPLES\n.nf\n";
     return page + troff(program.get_footer()) + "\n.fi\n";
 }
 
@@ -264,7 +264,7 @@ void add(CLI::App& program)
     auto kind = std::make_shared<std::string>();
     CLI::App* command =
         program.add_subcommand("document", "Print the man page or a shell's completion")->group("");
-    command->add_option("kind", *kind, "Which")
+    command->add_option("kind", *kind, "Document to print")
         ->required()
         ->check(CLI::IsMember({"man", "bash", "zsh", "fish"}));
     command->callback([kind, &program] { print_document(program, *kind, CICATRIX_VERSION); });

@@ -1,20 +1,19 @@
-// The man page and the shells' completions, written from the same description of commands and options that
-// --help prints, so that they cannot disagree. The build calls the hidden command `cicatrix document KIND >
-// FILE`.
+// The man page and the shell completions, generated from the CLI11 commands and options that --help prints.
+// The build calls the hidden command `cicatrix document KIND > FILE`.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>
 
 namespace document_command {
 
-/// troff with the macros of man(7); what belongs to no group of the help is left out, here and below.
+/// troff with the macros of man(7). Like --help, all four omit commands and options without a group.
 std::string man_page(const CLI::App& program, const std::string& version);
-/// Commands, options, their choices; else names of files.
+/// Completes commands, options and their choices; otherwise file names.
 std::string bash_completion(const CLI::App& program);
 std::string zsh_completion(const CLI::App& program);
 std::string fish_completion(const CLI::App& program);
 
-/// Keeps `program`, which must outlive the parsing.
+/// The callback refers to `program`, which must outlive the parsing.
 void add(CLI::App& program);
 
 } // namespace document_command

@@ -22,7 +22,7 @@ struct FitCommand
     std::string mean = "areas";
 };
 
-/// A parameter and its standard error, where it has one.
+/// "value +- standard error"; only the value when the error is not finite.
 std::string with_error(double value, double error)
 {
     return std::isfinite(error) ? fmt::format("{:.4g} +- {:.2g}", value, error)
@@ -62,8 +62,8 @@ void fit(const FitCommand& command)
                           .mean = command.mean == "areas" ? wound::MeanOf::Areas : wound::MeanOf::Ratios});
     for (const wound::AreaSeries& one : table)
         if (one.days.size() < 2)
-            fmt::print("{}: measured on one day only, counted in the means\n", one.name);
-    cv::Mat3b picture = wound::draw_fit(fits.back()); // the mean, or the only series
+            fmt::print("{}: measured on one day only, used only in the means\n", one.name);
+    cv::Mat3b picture = wound::draw_fit(fits.back()); // the mean of all, or the only series
     std::string drawn = fits.back().series.name;
     for (const wound::SeriesFit& one : fits) {
         print_fit(one);
@@ -92,10 +92,10 @@ void add(CLI::App& program)
         ->capture_default_str()
         ->type_name("DIR");
     command->add_flag("--robust", options->robust,
-                      "One bad measurement does not pull the curve (Huber's loss)");
+                      "Fit with Huber's loss, which limits the influence of outliers");
     command
         ->add_option("--mean", options->mean,
-                     "Of several wounds: the mean of their areas over that on day 0, or of their ratios")
+                     "Mean of several wounds: mean area / mean area on day 0, or mean of their ratios")
         ->capture_default_str()
         ->check(CLI::IsMember({"areas", "ratios"}));
     command->footer(
@@ -104,9 +104,9 @@ void add(CLI::App& program)
         "  old-1,0,22.1,seen,21.5,seen\n"
         "  old-1,3,17.4,seen,18.0,imagined\n"
         "  young-1,0,25.0,seen,,\n\n"
-        "Areas of several readers are averaged; a row all of whose readers imagined the edge is left "
-        "out.\nEvery wound is fitted, then the mean of each group (a column group, or the name before "
-        "its first -)\nand of all. Put the table into a scene: \"healing\": {\"areas\": "
+        "Areas of several readers are averaged; a row is skipped when all its readers imagined the "
+        "edge.\nEvery wound is fitted, then the mean of each group (a column group, or the name before "
+        "its first -)\nand of all. Use the table in a scene: \"healing\": {\"areas\": "
         "\"areas.csv\", \"series\": \"mean old\"};\nwithout series it is the mean of all.");
     command->callback([options] { fit(*options); });
 }

@@ -1,4 +1,4 @@
-// `cicatrix fit AREAS.csv`: healing curves fitted to a table of measured areas. Needs no Vulkan device.
+// `cicatrix fit AREAS.csv`: fits healing curves to a table of measured areas. Needs no Vulkan device.
 #pragma once
 
 namespace CLI {

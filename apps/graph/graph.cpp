@@ -45,9 +45,9 @@ void add(CLI::App& program)
     auto options = std::make_shared<GraphOptions>();
     CLI::App* command =
         program.add_subcommand("graph", "Print the schedule of a scene's frames: passes, images, barriers, "
-                                        "what was skipped or culled and why");
+                                        "skipped and culled passes with reasons");
     scene::add_scene_options(*command, *options);
-    command->add_option("--dot", options->dot, "Write the last frame's schedule as Graphviz")
+    command->add_option("--dot", options->dot, "Write the last frame's schedule in Graphviz format")
         ->type_name("FILE.dot");
     command->footer(
         "Example: cicatrix graph --days 0,0,3 --dot frame.dot && dot -Tsvg frame.dot -o frame.svg");

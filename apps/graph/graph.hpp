@@ -1,4 +1,4 @@
-// `cicatrix graph`: the schedule of a scene's frames, as text and as Graphviz.
+// `cicatrix graph`: prints the schedule of a scene's frames, as text and in Graphviz format.
 #pragma once
 
 namespace CLI {

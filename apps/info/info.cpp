@@ -10,7 +10,7 @@ namespace info_command {
 void add(CLI::App& program)
 {
     CLI::App* command =
-        program.add_subcommand("info", "List Vulkan devices, what they offer and what they lack");
+        program.add_subcommand("info", "List Vulkan devices, their features and what they lack");
     command->footer("Example: cicatrix info\nChoose one with --device NAME|INDEX, or with the environment "
                     "variable CICATRIX_DEVICE.");
     command->callback([] { fmt::print("{}", gpu::describe_devices()); });

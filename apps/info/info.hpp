@@ -1,4 +1,4 @@
-// `cicatrix info`: the machine's Vulkan devices and what matters about them.
+// `cicatrix info`: lists the machine's Vulkan devices and the features that Cicatrix uses.
 #pragma once
 
 namespace CLI {

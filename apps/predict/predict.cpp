@@ -22,13 +22,13 @@ struct SeriesPhoto
 {
     double day = 0;
     std::filesystem::path photo, mask;
-    wound::SegmentationHints hints; // without a mask
+    wound::SegmentationHints hints; // used when `mask` is empty
 };
 
 struct SeriesFile
 {
     std::filesystem::path areas;
-    std::string series; // of the areas; empty: their mean
+    std::string series; // name of a series in the table; empty: the mean
     std::vector<SeriesPhoto> photos;
 };
 
@@ -48,7 +48,7 @@ SeriesFile read_series(const std::filesystem::path& path, const std::filesystem:
         SeriesPhoto photo;
         photo.day = day.number("day", 0, 0, 3650);
         if (!file.photos.empty() && photo.day <= file.photos.back().day)
-            day.fail("day", "is not after the one before", "give the days in order");
+            day.fail("day", "is not later than the day before it", "give the days in order");
         if (!day.has("photo"))
             day.fail("photo", "is missing", "name a photograph, PNG or JPEG");
         photo.photo = data / day.text("photo", "");
@@ -56,7 +56,7 @@ SeriesFile read_series(const std::filesystem::path& path, const std::filesystem:
             photo.mask = data / day.text("mask", "");
         if (const json* hints = day.get("segmentation")) {
             if (!photo.mask.empty())
-                day.fail("segmentation", "is given beside a mask", "leave one of them out");
+                day.fail("segmentation", "is given together with a mask", "remove one of them");
             photo.hints = scene::read_hints(*hints, day.where("segmentation"));
         }
         day.finish();
@@ -73,7 +73,7 @@ cv::Mat1b mask_of(const SeriesPhoto& photo, const cv::Mat3b& srgb)
                : wound::checked_mask(base::read_mask(photo.mask), srgb.size(), photo.mask.string());
 }
 
-std::optional<double> traced(const wound::AreaSeries& series, double day)
+std::optional<double> traced_ratio(const wound::AreaSeries& series, double day)
 {
     const auto found = std::ranges::find(series.days, day);
     if (found == series.days.end())
@@ -92,7 +92,7 @@ cv::Point2d centroid(const cv::Mat1b& mask)
     return {moments.m10 / moments.m00, moments.m01 / moments.m00};
 }
 
-/// The mask's outlines, moved by `shift` pixels of the photograph, on its picture at `scale`.
+/// Draws the mask's outlines, moved by `shift` pixels of the photograph, on the photograph scaled by `scale`.
 void draw_outline(cv::Mat3b& picture, const cv::Mat1b& mask, cv::Point2d shift, double scale,
                   const cv::Scalar& color)
 {
@@ -152,7 +152,7 @@ Prediction predict(const std::filesystem::path& series, const std::filesystem::p
         day.day = photo.day - file.photos.front().day;
         day.photo = photo.photo;
         day.srgb = base::read_rgb(photo.photo);
-        day.traced_ratio = traced(result.fit.series, day.day);
+        day.traced_ratio = traced_ratio(result.fit.series, day.day);
         day.curve_ratio = wound::unhealed_ratio(result.fit.best().curve, day.day);
         if (!first) {
             day.observed = mask_of(photo, day.srgb);
@@ -245,13 +245,15 @@ void add(CLI::App& program)
 {
     auto options = std::make_shared<Command>();
     CLI::App* command = program.add_subcommand(
-        "predict", "Predict a wound from its first photograph and compare with later ones");
-    command->add_option("series", options->series, "Days, photographs and the table of measured areas")
+        "predict", "Predict a wound from its first photograph and compare with later photographs");
+    command
+        ->add_option("series", options->series,
+                     "File that names days, photographs and the table of measured areas")
         ->required()
         ->type_name("SERIES.json");
     command
         ->add_option("--data", options->data,
-                     "Folder of the files named in SERIES.json; without it the one it lies in")
+                     "Folder of the files named in SERIES.json (default: the folder of SERIES.json)")
         ->type_name("DIR");
     command->add_option("--out", options->out, "Folder for predict.json and predict.png")
         ->capture_default_str()

@@ -20,7 +20,7 @@ namespace reflect_command {
 using nlohmann::ordered_json;
 namespace {
 
-// One number for one wavelength, else a list.
+// A number for one wavelength, a list for several.
 template <typename Get>
 ordered_json per_channel(const std::vector<optics::Response>& responses, Get get)
 {
@@ -41,11 +41,11 @@ ordered_json thickness(double mm)
 ordered_json domain_report(const optics::SkinLayers& tissue)
 {
     ordered_json list = ordered_json::array();
-    for (const optics::OutsideDomain& case_ : optics::outside_domain(tissue))
-        list.push_back({{"layer", tissue.layers[case_.layer].name},
-                        {"channel", case_.channel},
-                        {"thickness_mm", thickness(case_.thickness_mm)},
-                        {"limit_mm", case_.limit_mm}});
+    for (const optics::OutsideDomain& outside : optics::outside_domain(tissue))
+        list.push_back({{"layer", tissue.layers[outside.layer].name},
+                        {"channel", outside.channel},
+                        {"thickness_mm", thickness(outside.thickness_mm)},
+                        {"limit_mm", outside.limit_mm}});
     return list;
 }
 
@@ -96,8 +96,9 @@ void reflect(const ReflectOptions& options, std::ostream& out, std::ostream& not
             fmt::print(notes, "note: {}\n", *note);
         if (std::ranges::any_of(tissue.layers,
                                 [](const optics::Layer& l) { return std::isinf(l.thickness_mm); }))
-            fmt::print(notes, "note: eqs. (2) and (3) have no value for a layer of infinite thickness: null "
-                              "stands for it; give its thickness or take another --model\n");
+            fmt::print(notes,
+                       "note: eqs. (2) and (3) have no value for a layer of infinite thickness (null in the "
+                       "output); give its thickness or choose another --model\n");
     }
     out << json.dump(2) << '\n';
 }
@@ -113,7 +114,7 @@ void add_light_options(CLI::App& command, ReflectOptions& options)
                 options.reflectance_options.incidence =
                     text == "normal" ? optics::Incidence::Normal : optics::Incidence::Diffuse;
             },
-            "Light that arrives: normal or diffuse (default)")
+            "Incident light: normal or diffuse (default)")
         ->check(CLI::IsMember({"normal", "diffuse"}));
     command
         .add_option_function<std::string>(
@@ -125,7 +126,7 @@ void add_light_options(CLI::App& command, ReflectOptions& options)
             "Diffuse Fresnel reflectance of the analytic models: exact (default) or polynomial")
         ->check(CLI::IsMember({"exact", "polynomial"}));
     optics::ReflectanceOptions& model = options.reflectance_options;
-    command.add_option("--photons", model.photons, "Photons of monte-carlo; a standard error takes two")
+    command.add_option("--photons", model.photons, "Photons of monte-carlo, at least 2")
         ->transform(base::whole_number_from(2, 1e10))
         ->capture_default_str();
     command.add_option("--seed", model.seed, "Seed of monte-carlo")
@@ -144,8 +145,8 @@ void add_light_options(CLI::App& command, ReflectOptions& options)
                 options.reflectance_options.quadrature =
                     text == "smooth" ? optics::Quadrature::Smooth : optics::Quadrature::Slab;
             },
-            "Variable of those angles: the cosine in the thinnest medium that carries the light (smooth, "
-            "default) or in the densest, as Prahl's tables have it (slab)")
+            "Integration variable of adding-doubling: cosine in the optically thinnest medium that carries "
+            "the light (smooth, default) or in the densest, as in Prahl's tables (slab)")
         ->check(CLI::IsMember({"smooth", "slab"}));
 }
 
@@ -154,7 +155,7 @@ void add_light_options(CLI::App& command, ReflectOptions& options)
 void add(CLI::App& app)
 {
     CLI::App* command =
-        app.add_subcommand("reflect", "What layered tissue reflects, transmits and absorbs, as JSON");
+        app.add_subcommand("reflect", "Compute what layered tissue reflects, transmits and absorbs, as JSON");
     auto options = std::make_shared<ReflectOptions>();
     command
         ->add_option("tissue", options->tissue,
@@ -162,11 +163,12 @@ void add(CLI::App& app)
         ->type_name("TISSUE.json");
     scene::add_model_option(*command, options->model);
     add_light_options(*command, *options);
-    command->footer("Example: cicatrix reflect tissue.json --model adding-doubling\ntissue.json: {\"unit\": "
-                    "\"1/mm\", \"layers\": [{\"name\": \"dermis\", \"sigma_a\": [0.1, 0.3, 0.4], "
-                    "\"sigma_s_reduced\": [1.5, 1.9, 2.2], \"n\": 1.4, \"thickness_mm\": \"inf\"}]}\nAll "
-                    "fields of a tissue file, and layers by what they "
-                    "contain (blood, melanosomes, ...): docs/scene.md");
+    command->footer(
+        "Example: cicatrix reflect tissue.json --model adding-doubling\ntissue.json: {\"unit\": "
+        "\"1/mm\", \"layers\": [{\"name\": \"dermis\", \"sigma_a\": [0.1, 0.3, 0.4], "
+        "\"sigma_s_reduced\": [1.5, 1.9, 2.2], \"n\": 1.4, \"thickness_mm\": \"inf\"}]}\ndocs/scene.md "
+        "lists all fields of a tissue file, and layers "
+        "given by their content (blood, melanosomes, ...)");
     command->callback([options] {
         if (isatty(STDERR_FILENO))
             options->reflectance_options.progress = [](double share) {

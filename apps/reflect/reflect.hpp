@@ -1,5 +1,4 @@
-// `cicatrix reflect TISSUE.json`: what layered tissue reflects, transmits and absorbs, by any reflectance
-// model.
+// `cicatrix reflect TISSUE.json`: prints what layered tissue reflects, transmits and absorbs, by any model.
 #pragma once
 #include <iosfwd>
 #include <string>
@@ -19,7 +18,7 @@ struct ReflectOptions
     optics::ReflectanceOptions reflectance_options;
 };
 
-/// Writes one JSON object to `out`; to `notes`, lines on where the model does not hold.
+/// Writes one JSON object to `out`, and a line to `notes` for each limit of the model that is exceeded.
 void reflect(const ReflectOptions& options, std::ostream& out, std::ostream& notes);
 
 void add(CLI::App& app);

@@ -10,7 +10,7 @@
 namespace report_command {
 namespace {
 
-/// The camera on its way around the head, `degrees` further to the viewer's right.
+/// The camera turned about its target around the vertical axis, `degrees` to the viewer's right.
 head::Camera orbited(const head::Camera& camera, double degrees)
 {
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1), glm::radians(degrees), glm::dvec3(0, 1, 0));
@@ -18,7 +18,7 @@ head::Camera orbited(const head::Camera& camera, double degrees)
             camera.fov_deg};
 }
 
-/// Tissue that absorbs `factor` times as much.
+/// The tissue with absorption multiplied by `factor`.
 optics::HealingTissue tinted(optics::HealingTissue tissue, double factor)
 {
     if (auto* table = std::get_if<optics::SkinLayers>(&tissue)) {
@@ -62,7 +62,7 @@ std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage)
          [=, &stage](graph::Graph& graph, double position) {
              declare(graph, first + span * position, stage.loaded().camera());
          }},
-        // On the first day a wound still has the photograph's colours, whatever the tissue.
+        // Not on the first day: then a wound has the photograph's colours, whatever the tissue.
         {"moving tissue",
          fmt::format("the tissue's absorption grows by {:g} %, on day {:g}", 100 * tint, first + span / 3),
          [=, &stage](graph::Graph& graph, double position) {

@@ -15,7 +15,7 @@ namespace palette = base::palette;
 
 constexpr double width = 960, row_height = 26; // px
 
-/// Rows of the usual height, times `spacing`.
+/// Renders the chart as SVG for the page; rows are `spacing` times the usual height.
 std::string page_svg(const base::Chart& chart, double spacing = 1)
 {
     const double plot = spacing * row_height * double(chart.y.rows.size());
@@ -77,15 +77,14 @@ std::string stacked_bars(const std::vector<CaseSummary>& summaries, const PassCo
 std::string distributions(const CaseSummary& summary, const stage::Measurement& measurement,
                           const PassColors& colors)
 {
-    constexpr double least_ms = 1e-4; // drawn: a logarithm has no place for zero
-    base::Chart chart{
-        .description = "Every frame's time of each pass",
-        .x = {.title = "every frame, its median, p5 to p95", .unit = "ms", .logarithmic = true}};
+    constexpr double least_ms = 1e-4; // smaller times are drawn here: zero has no logarithm
+    base::Chart chart{.description = "Every frame's time of each pass",
+                      .x = {.title = "all frames, median, p5 to p95", .unit = "ms", .logarithmic = true}};
     const auto add = [&](const std::string& name, const std::vector<double>& times, base::Paint paint) {
         const double row = double(chart.y.rows.size());
         chart.y.rows.push_back(name);
         base::Series frames{.paint = paint, .radius = 2.2, .opacity = .55};
-        for (const double ms : times) // spread out, so that equal ones do not hide each other
+        for (const double ms : times) // vertical offsets keep equal times visible
             frames.points.emplace_back(std::max(ms, least_ms),
                                        row + .25 * std::sin(double(frames.points.size()) * 2.399));
         chart.series.push_back(std::move(frames));
@@ -110,8 +109,8 @@ std::string timeline(const stage::TimedFrame& frame, const PassColors& colors)
         gpu,
     };
     base::Chart chart{
-        .description = "CPU and GPU in the course of one frame",
-        .x = {.title = "time since the frame began", .unit = "ms", .low = 0, .high = frame.wall_ms()},
+        .description = "CPU and GPU during one frame",
+        .x = {.title = "time since the start of the frame", .unit = "ms", .low = 0, .high = frame.wall_ms()},
         .y = {.rows = {"CPU", "GPU"}}};
     const auto add = [&](Row row, const std::string& name, double begin, double ms, base::Paint paint,
                          double opacity = 1) {
@@ -151,7 +150,7 @@ std::string ratios(const Comparison& comparison)
 {
     base::Chart chart{
         .description = "Ratios of this run to the earlier one",
-        .x = {.title = "this run's median over the earlier one's, with its interval", .logarithmic = true},
+        .x = {.title = "ratio of medians, this run / earlier run, with interval", .logarithmic = true},
         .references = {{base::ReferenceLine::Along::Y, 1, "", palette::ink, 1.5}}};
     double least = 0.8, most = 1.25;
     for (const ComparedTime& time : comparison.times) {

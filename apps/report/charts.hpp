@@ -1,4 +1,4 @@
-// The charts of a report's page, as elements of it.
+// The charts of a report's page, as SVG elements.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace report_command {
 
-/// The colour of a pass in all charts of a report.
+/// Assigns each pass one colour for all charts of a report.
 class PassColors
 {
   public:
@@ -18,17 +18,17 @@ class PassColors
     const std::vector<std::string>& passes() const { return names_; }
 
   private:
-    std::vector<std::string> names_; // the dearest first
+    std::vector<std::string> names_; // the most expensive first
 };
 
-/// A bar per case: what its median frame consists of.
+/// One bar per case: the median frame, divided into passes.
 std::string stacked_bars(const std::vector<CaseSummary>& summaries, const PassColors& colors);
-/// A row per pass: every frame's time, the median and what lies between p5 and p95, on a logarithmic axis.
+/// One row per pass: the time in every frame, the median and the range p5 to p95, on a logarithmic axis.
 std::string distributions(const CaseSummary& summary, const stage::Measurement& measurement,
                           const PassColors& colors);
-/// The CPU and the GPU in the course of one frame.
+/// CPU and GPU work during one frame.
 std::string timeline(const stage::TimedFrame& frame, const PassColors& colors);
-/// Ratios and their intervals.
+/// Ratios of this run to the earlier run, with intervals.
 std::string ratios(const Comparison& comparison);
 
 } // namespace report_command

@@ -10,7 +10,7 @@ namespace report_command {
 namespace {
 using nlohmann::json;
 
-constexpr double level = 0.05;
+constexpr double level = 0.05; // for all comparisons together
 
 /// The numbers of an array, without nulls.
 std::vector<double> numbers(const json& values)
@@ -28,7 +28,7 @@ struct Pair
     std::vector<double> before, after;
 };
 
-/// Everything that was timed in both.
+/// Every frame and pass with samples in both reports.
 std::vector<Pair> pairs(const json& before, const json& after)
 {
     constexpr std::size_t least = 5; // samples
@@ -69,17 +69,17 @@ json read_report(const std::filesystem::path& path)
 {
     const json report = base::read_json(path);
     if (!report.is_object() || report.value("format", json()) != "cicatrix report")
-        throw base::InputError(path.string(), "is no report",
-                               "name a report.json that cicatrix report has written");
+        throw base::InputError(path.string(), "is not a report",
+                               "give a report.json written by cicatrix report");
     if (report.value("version", json()) != 1)
         throw base::InputError(path.string() + ": /version",
-                               "is " + report.value("version", json()).dump() + ", known is 1",
-                               "make it anew with this version of cicatrix");
+                               "is " + report.value("version", json()).dump() + ", supported is 1",
+                               "create it again with this version of cicatrix");
     try {
-        pairs(report, report); // reads all that a comparison reads
+        pairs(report, report); // reads every field that a comparison reads
     } catch (const json::exception& error) {
         throw base::InputError(path.string(), fmt::format("is damaged: {}", error.what()),
-                               "make it anew with cicatrix report");
+                               "create it again with cicatrix report");
     }
     return report;
 }
@@ -105,7 +105,7 @@ Comparison compare_reports(const json& before, const json& after, const std::fil
         time.before_ms = base::quantile(pair.before, 0.5);
         time.after_ms = base::quantile(pair.after, 0.5);
         if (!(time.before_ms > 0 && time.after_ms > 0))
-            continue; // below the clock's resolution
+            continue; // shorter than the clock's resolution
         time.ratio = base::ratio_of_medians(pair.before, pair.after, level / double(all.size()));
         time.drift = std::max(base::drift_of(pair.before), base::drift_of(pair.after));
         time.exceeds_noise = time.ratio.low > time.drift || time.ratio.high < 1 / time.drift;
@@ -131,9 +131,10 @@ std::string to_text(const Comparison& comparison)
                             : time.ratio.ratio > 1 ? "slower"
                                                    : "faster");
     }
-    return text + fmt::format("  {} of {} differences exceed the noise (moving-block bootstrap of the ratio "
-                              "of medians, {:g} % for all together, and more than either run's own drift)\n",
-                              beyond, comparison.times.size(), 100 * level);
+    return text +
+           fmt::format("  {} of {} differences exceed the noise (moving-block bootstrap of the ratio "
+                       "of medians, {:g} % for all together, and more than the drift within either run)\n",
+                       beyond, comparison.times.size(), 100 * level);
 }
 
 } // namespace report_command

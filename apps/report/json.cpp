@@ -25,7 +25,7 @@ json pass_json(const PassSummary& pass)
             {"invocations", invocations}};
 }
 
-/// Every frame's own numbers, in the order of the frames; null where a pass did not run.
+/// The times of every frame, in order; null where a pass did not run.
 json samples_json(const CaseSummary& summary, const stage::Measurement& measurement)
 {
     json gpu = json::object(), cpu = json::object();
@@ -55,7 +55,7 @@ json name_event(const char* what, int process, int track, const std::string& nam
     return {{"ph", "M"}, {"name", what}, {"pid", process}, {"tid", track}, {"args", {{"name", name}}}};
 }
 
-/// Appends complete events of one case.
+/// Appends the events of one case (complete events, phase X).
 class Track
 {
   public:

@@ -1,4 +1,4 @@
-// What programs read of a report: report.json (docs/report.md documents every field) and trace.json.
+// The machine-readable parts of a report: report.json (docs/report.md documents every field) and trace.json.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace report_command {
 
-/// `facts`: what was measured on what; an object whose fields stand before the cases.
+/// `facts`: an object with program, device, machine, settings and scene; its fields precede "cases".
 nlohmann::json report_json(const nlohmann::json& facts, const std::vector<CaseSummary>& summaries,
                            const std::vector<stage::Measurement>& measurements);
 

@@ -27,7 +27,7 @@ Vertex middle(const Vertex& a, const Vertex& b)
     return vertex;
 }
 
-/// Replaces every triangle by what `split` appends for its corners.
+/// Replaces every triangle by the triangles that `split(a, b, c)` appends for its corners.
 template <typename Split>
 void replace_triangles(Model& model, Split split)
 {
@@ -47,7 +47,7 @@ void replace_triangles(Model& model, Split split)
     model.primitives = std::move(kept);
 }
 
-/// Per vertex the one that stands for all in its cube.
+/// For each vertex, the index of the vertex that represents all in its cube.
 std::vector<std::uint32_t> representatives(const Model& model, float cube)
 {
     std::map<std::array<int, 3>, std::uint32_t> first;
@@ -61,9 +61,9 @@ std::vector<std::uint32_t> representatives(const Model& model, float cube)
 
 Model clustered_by(Model model, float cube)
 {
-    const std::vector<std::uint32_t> stands_for = representatives(model, cube);
+    const std::vector<std::uint32_t> representative = representatives(model, cube);
     replace_triangles(model, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        const std::array corners{stands_for[a], stands_for[b], stands_for[c]};
+        const std::array corners{representative[a], representative[b], representative[c]};
         if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
             model.indices.insert(model.indices.end(), corners.begin(), corners.end());
     });
@@ -99,7 +99,7 @@ Model subdivided(const Model& model)
 Model clustered(const Model& model, double share)
 {
     const double wanted = share * double(triangle_count(model));
-    float fine = 1e-5f, coarse = glm::length(model.max - model.min) / 4; // metres; between them by halving
+    float fine = 1e-5f, coarse = glm::length(model.max - model.min) / 4; // metres; bisection on a log scale
     for (int i = 0; i < 24; ++i) {
         const float cube = std::sqrt(fine * coarse);
         (double(triangle_count(clustered_by(model, cube))) > wanted ? fine : coarse) = cube;

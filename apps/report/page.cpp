@@ -31,7 +31,7 @@ pre { overflow-x: auto; font-size: 12px; }
 </style></head><body>
 )";
 
-/// A string without its quotes, anything else as JSON has it.
+/// A string without quotes, a float with 3 digits, null as "unknown", other values as JSON.
 std::string plain(const json& value)
 {
     return value.is_string()         ? value.get<std::string>()
@@ -64,10 +64,11 @@ std::string facts_table(const json& facts)
         fmt::format("{}, {} samples per pixel, {} mode{}; {} triangles", plain(settings["size"]),
                     plain(settings["samples_per_pixel"]), plain(settings["mode"]),
                     settings["validation"] ? ", validation on" : "", plain(facts["head"]["triangles"])));
-    row("Frames", fmt::format("{} of each case, in turn, after {} of warm-up and {} for counting",
-                              plain(settings["frames"]), plain(settings["warm_up_frames"]),
-                              plain(settings["counted_frames"])));
-    row("Alignment", fmt::format("CPU and GPU by {}, within {:.2g} ms", plain(alignment["words"]),
+    row("Frames",
+        fmt::format("{} of each case, interleaved, after {} of warm-up and {} for counting invocations",
+                    plain(settings["frames"]), plain(settings["warm_up_frames"]),
+                    plain(settings["counted_frames"])));
+    row("Alignment", fmt::format("CPU and GPU clocks by {}, within {:.2g} ms", plain(alignment["words"]),
                                  alignment["error_ms"].get<double>()));
     return table + "</table>\n";
 }
@@ -112,8 +113,8 @@ std::string case_section(const CaseSummary& summary, const stage::Measurement& m
                                    summary.wall_ms.median, summary.wall_ms.p5, summary.wall_ms.p95);
     if (summary.sum_ms)
         text +=
-            fmt::format(" On the GPU the passes take {:.2f} ms in sum, {:.2f} ms from the first's begin to "
-                        "the last's end.",
+            fmt::format(" On the GPU the passes take {:.2f} ms in sum, {:.2f} ms from the start of the first "
+                        "to the end of the last.",
                         summary.sum_ms->median, summary.envelope_ms->median);
     text += fmt::format(" The passes explain {:.1f} % of the frame.</p>\n", 100 * summary.coverage);
     return text + pass_table(summary) + "<h3>Every frame</h3>\n" +
@@ -143,9 +144,9 @@ std::string comparison_section(const Comparison& comparison)
     }
     return text + "</table></div><p class=\"faint\">Interval: moving-block bootstrap of the ratio of "
                   "medians, 5 % for all "
-                  "comparisons together. A difference exceeds the noise when its interval also leaves out "
+                  "comparisons together. A difference exceeds the noise when its interval also excludes "
                   "the drift: "
-                  "the most that either run differs between its own halves.</p>\n";
+                  "the largest ratio between the halves of either run.</p>\n";
 }
 
 } // namespace
@@ -157,10 +158,10 @@ std::string report_page(const json& facts, const std::vector<CaseSummary>& summa
     const PassColors colors(summaries);
     std::string page = head + base::css_variables() + style + "<h1>Cicatrix: what each pass costs</h1>\n";
     if (facts.at("device").at("software_rasteriser"))
-        page += "<p class=\"note\">This device is a software rasteriser: what is called GPU here is the "
+        page += "<p class=\"note\">This device is a software rasteriser: \"GPU\" on this page means the "
                 "machine's own processor.</p>\n";
     if (facts.at("load").at("before") > facts.at("machine").at("cores"))
-        page += "<p class=\"note\">The machine was busy with other work when this began: times are upper "
+        page += "<p class=\"note\">The machine was busy with other work at the start: times are upper "
                 "bounds.</p>\n";
     page += facts_table(facts);
     page += "<h2>A frame of each case</h2>\n" + stacked_bars(summaries, colors);
@@ -168,11 +169,12 @@ std::string report_page(const json& facts, const std::vector<CaseSummary>& summa
         page += comparison_section(*comparison);
     for (std::size_t i = 0; i < summaries.size(); ++i)
         page += case_section(summaries[i], measurements[i], colors);
-    return page + fmt::format("<h2>The scene</h2><details><summary>as JSON</summary><pre>{}</pre></details>\n"
-                              "<p class=\"faint\">Shares are of the wall clock from declaring a frame to its "
-                              "picture on the host, GPU and recording together. How it is measured: "
-                              "docs/report.md of Cicatrix.</p>\n</body></html>\n",
-                              base::escaped(facts.at("scene").dump(2)));
+    return page +
+           fmt::format(
+               "<h2>The scene</h2><details><summary>as JSON</summary><pre>{}</pre></details>\n"
+               "<p class=\"faint\">Shares are GPU and recording time / wall clock from declaring a "
+               "frame to its picture on the host. Method: docs/report.md of Cicatrix.</p>\n</body></html>\n",
+               base::escaped(facts.at("scene").dump(2)));
 }
 
 } // namespace report_command

@@ -1,4 +1,4 @@
-// report.html: one page with everything in it, no scripts, nothing fetched; readable in light and dark.
+// report.html: one self-contained page without scripts or external files, for light and dark colour schemes.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

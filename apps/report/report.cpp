@@ -24,7 +24,7 @@ namespace report_command {
 namespace {
 using nlohmann::json;
 
-const cv::Size sweep_size(800, 400); // of a sweep's chart, px
+const cv::Size sweep_size(800, 400); // of a sweep's chart picture, px
 
 struct ReportOptions : scene::SceneOptions
 {
@@ -33,7 +33,7 @@ struct ReportOptions : scene::SceneOptions
     std::vector<std::string> sweeps;
 };
 
-/// Reports travel; where files lie on somebody's disk does not.
+/// Replaces paths by file names: a report can be published without revealing folders.
 json without_folders(json scene)
 {
     if (scene.is_string() && scene.get_ref<const std::string&>().find('/') != std::string::npos)
@@ -64,7 +64,7 @@ const char* words_for(gpu::Alignment alignment)
                                                    : "nothing: the device has no timestamps";
 }
 
-/// The worst of all frames.
+/// The alignment method of the last frame and the largest error of all frames.
 json alignment_json(const std::vector<stage::Measurement>& measurements)
 {
     gpu::Alignment alignment = gpu::Alignment::None;
@@ -77,7 +77,7 @@ json alignment_json(const std::vector<stage::Measurement>& measurements)
     return {{"method", gpu::name_of(alignment)}, {"words", words_for(alignment)}, {"error_ms", error_ms}};
 }
 
-/// Tells `progress` of every round.
+/// A callback for stage::measure() that reports every round to `progress`.
 std::function<void(int)> rounds_of(base::Progress& progress, const std::string& what,
                                    const stage::Rounds& rounds)
 {
@@ -88,7 +88,7 @@ std::function<void(int)> rounds_of(base::Progress& progress, const std::string& 
     };
 }
 
-/// The device's name; a rasteriser that runs on the CPU is called that.
+/// The device's name; marks software rasterisers.
 std::string device_title(const gpu::DeviceInfo& info)
 {
     return info.name + (info.software ? ", a software rasteriser" : "");
@@ -100,7 +100,7 @@ void print_head(const json& facts)
     fmt::print("{} ({}), {}{}\n", device.at("name").get<std::string>(), device.at("type").get<std::string>(),
                device.at("driver").get<std::string>(),
                device.at("software_rasteriser")
-                   ? "\na software rasteriser: what is called GPU below is this machine's processor"
+                   ? "\na software rasteriser: \"GPU\" below means this machine's processor"
                    : "");
     fmt::print("{} cores, load {:.1f} before and {:.1f} after; {}, {} triangles; GPU times aligned by {} "
                "(within {:.2g} ms)\n",
@@ -109,7 +109,7 @@ void print_head(const json& facts)
                facts.at("alignment").at("words").get<std::string>(),
                facts.at("alignment").at("error_ms").get<double>());
     if (load.at("before") > machine.at("cores"))
-        fmt::print("note: the machine was busy with other work when this began: times are upper bounds\n");
+        fmt::print("note: the machine was busy with other work at the start: times are upper bounds\n");
     fmt::print("\n");
 }
 
@@ -161,7 +161,7 @@ void sweep(const ReportOptions& options, const scene::Scene& scene, const gpu::D
 void report(const ReportOptions& options)
 {
     const scene::Scene scene = scene::chosen_scene(options);
-    json before; // read first: a wrong file must not cost the time of a measurement
+    json before; // read before measuring, so that a wrong file is reported at once
     if (!options.against.empty())
         before = read_report(options.against);
     base::make_folder(options.out);
@@ -213,12 +213,12 @@ void add(CLI::App& program)
     auto options = std::make_shared<ReportOptions>();
     CLI::App* command = program.add_subcommand(
         "report",
-        "What each pass costs: table, page, JSON, trace; compared with an earlier one; cost against size");
+        "Measure the cost of each pass: table, page, JSON, trace; comparison with an earlier report; sweeps");
     scene::add_scene_options(*command, *options);
     command
         ->add_option(
             "--frames", options->frames,
-            "Frames measured of each case, after a warm-up (default 60), or of each step of a sweep (15)")
+            "Measured frames of each case (default 60) or of each step of a sweep (15), after a warm-up")
         ->transform(base::whole_number_from(5, 10000))
         ->type_name("N");
     command->add_option("--out", options->out, "Folder for report.html, report.json and trace.json")
@@ -227,22 +227,21 @@ void add(CLI::App& program)
     auto* against =
         command
             ->add_option("--against", options->against,
-                         "Compare with this earlier report.json: ratios, and which exceed the noise")
+                         "Compare with this earlier report.json: ratios, and which of them exceed the noise")
             ->type_name("REPORT.json");
     command
         ->add_option(
             "--sweep", options->sweeps,
-            "Instead of the four cases, how the cost grows with one of: size, triangles, wounds, points "
-            "(control points), lut (reflectance table); several with commas")
+            "Instead of the four cases, measure how the cost grows with: size, triangles, wounds, points "
+            "(control points), lut (reflectance table); separate several by commas")
         ->delimiter(',')
         ->check(CLI::IsMember(sweep_names()))
         ->type_name("KIND")
         ->excludes(against);
-    command->footer(
-        "Examples: cicatrix report --out before\n"
-        "          cicatrix report --out after --against before/report.json\n"
-        "          cicatrix report --sweep size,wounds --frames 20\n"
-        "Cases: still frame, moving camera, moving day, moving tissue. How it is measured: docs/report.md");
+    command->footer("Examples: cicatrix report --out before\n"
+                    "          cicatrix report --out after --against before/report.json\n"
+                    "          cicatrix report --sweep size,wounds --frames 20\n"
+                    "Cases: still frame, moving camera, moving day, moving tissue. Method: docs/report.md");
     command->callback([options] { report(*options); });
 }
 

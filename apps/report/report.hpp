@@ -1,5 +1,6 @@
-// `cicatrix report`: what every pass costs while nothing, the camera, the day or the tissue moves; as a
-// table, report.json, trace.json and a page; compared with an earlier report; and how the cost grows.
+// `cicatrix report`: measures the cost of every pass while nothing, the camera, the day or the tissue
+// changes; writes a table, report.json, trace.json and a page; compares with an earlier report; measures
+// sweeps.
 #pragma once
 
 namespace CLI {

@@ -21,7 +21,7 @@ constexpr std::array part_names{"declaring it (the day's wounds and warps)",
                                 "submitting and waking up",
                                 "fetching the picture"};
 
-/// In the order of part_names; they add up to the frame's wall clock.
+/// Times in ms, in the order of part_names; their sum is the frame's wall clock.
 std::array<double, part_names.size()> parts_of(const stage::TimedFrame& frame)
 {
     const gpu::FrameResult& result = frame.result;
@@ -49,7 +49,7 @@ PassSummary& find_or_add(std::vector<PassSummary>& passes, const std::string& na
     return found != passes.end() ? *found : passes.emplace_back(PassSummary{.name = name});
 }
 
-/// What one pass did in the frames of a measurement.
+/// Fills the summary of the pass `summary.name` from all frames of a measurement.
 void fill(PassSummary& summary, const stage::Measurement& measurement)
 {
     std::vector<double> gpu, cpu, bytes, vertex, fragment, compute;
@@ -95,7 +95,7 @@ std::string short_count(std::uint64_t count)
                                : fmt::format("{}", count);
 }
 
-/// "1.02M fragment, 45k vertex", of the kinds of shader that ran.
+/// "45k vertex, 12M fragment": the shader stages with invocations.
 std::string invocations_text(const std::optional<gpu::Invocations>& counts)
 {
     if (!counts)
@@ -170,7 +170,7 @@ std::string to_text(const CaseSummary& summary)
     text += fmt::format("  frame {:.2f} ms ({:.2f} to {:.2f})", summary.wall_ms.median, summary.wall_ms.p5,
                         summary.wall_ms.p95);
     if (summary.sum_ms)
-        text += fmt::format("; passes {:.2f} ms in sum, {:.2f} from the first's begin to the last's end",
+        text += fmt::format("; passes {:.2f} ms in sum, {:.2f} from the first start to the last end",
                             summary.sum_ms->median, summary.envelope_ms->median);
     text += fmt::format("; the passes explain {:.1f} %, the rest is", 100 * summary.coverage);
     std::vector<FramePart> rest;

@@ -1,5 +1,4 @@
-// What a measurement comes to: per pass and per case the numbers that `cicatrix report` prints, writes and
-// draws.
+// Statistics of a measurement per pass and per case, which `cicatrix report` prints, writes and draws.
 #pragma once
 #include <optional>
 #include <string>
@@ -13,16 +12,16 @@ namespace report_command {
 struct PassSummary
 {
     std::string name;
-    int ran = 0, skipped = 0, culled = 0; // frames
-    std::string reason;                   // of the last frame: "changed: uniform Warp"
-    std::optional<base::Spread> gpu_ms;   // of the frames in which it ran
-    std::optional<base::Spread> cpu_ms;   // the same: recording its commands
-    double share = 0;         // of a frame's wall clock, GPU and recording together, mean over all frames
-    double bytes_written = 0; // median of the frames in which it ran
-    std::optional<gpu::Invocations> invocations; // the same, of the counted frames
+    int ran = 0, skipped = 0, culled = 0;        // numbers of frames
+    std::string reason;                          // in the last frame, for example "changed: uniform Warp"
+    std::optional<base::Spread> gpu_ms;          // over the frames in which it ran
+    std::optional<base::Spread> cpu_ms;          // recording its commands, over the same frames
+    double share = 0;                            // (GPU + recording time) / wall clock, mean over all frames
+    double bytes_written = 0;                    // median over the frames in which it ran
+    std::optional<gpu::Invocations> invocations; // medians over the counted frames
 };
 
-/// A part of a frame's wall clock. All parts of a case make up the whole.
+/// A part of a frame's wall clock. The shares of all parts of a case add up to 1.
 struct FramePart
 {
     std::string name;
@@ -35,16 +34,16 @@ struct CaseSummary
     std::string name, what;
     base::Spread wall_ms; // from declaring the frame to its picture on the host
     std::optional<base::Spread> sum_ms,
-        envelope_ms;                 // on the GPU: of the passes; from the first's begin to the last's end
-    double coverage = 0;             // share of the wall clock that the passes explain, GPU and recording
-    std::vector<PassSummary> passes; // the dearest first
-    std::vector<FramePart> parts;    // in the order of a frame
+        envelope_ms;                 // GPU: sum of the passes; time from the first start to the last end
+    double coverage = 0;             // sum of the passes' shares
+    std::vector<PassSummary> passes; // the most expensive first
+    std::vector<FramePart> parts;    // in chronological order, as in part_names
     std::size_t median_frame = 0;    // index of the frame whose wall clock is nearest to the median
 };
 
 CaseSummary summarise(const stage::Measurement& measurement);
 
-/// The table that the command prints, the dearest pass first.
+/// The table that the command prints.
 std::string to_text(const CaseSummary& summary);
 
 } // namespace report_command

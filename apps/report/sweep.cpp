@@ -20,9 +20,9 @@
 namespace report_command {
 namespace {
 
-constexpr int small_picture = 512; // texels a side, of heads of which there are many
+constexpr int max_texture_side = 512; // texels a side, of textures in sweeps that load many heads
 
-/// A folder for heads that exist for one sweep only.
+/// A temporary folder for the heads of one sweep.
 class ScratchFolder
 {
   public:
@@ -30,7 +30,7 @@ class ScratchFolder
     {
         std::string name = (std::filesystem::temp_directory_path() / "cicatrix-XXXXXX").string();
         if (::mkdtemp(name.data()) == nullptr)
-            throw base::InputError(name, "cannot be made", "make room in the folder for temporary files");
+            throw base::InputError(name, "cannot be created", "free space in the folder for temporary files");
         path_ = name;
     }
     ~ScratchFolder()
@@ -50,16 +50,16 @@ class ScratchFolder
     std::filesystem::path path_;
 };
 
-/// What is swept: the steps, and what must live while they are measured.
+/// The steps of a sweep and the objects that must live while they are measured.
 struct Steps
 {
     std::string x_label, fixed;
     std::vector<double> x;
-    std::vector<stage::MeasuredCase> cases; // one per x, or as many rounds of all x as there are `prefixes`
+    std::vector<stage::MeasuredCase> cases; // all x once for each of `prefixes`
     std::vector<std::string> prefixes{""};
     std::string declaring = "declaring, on the CPU";
-    bool whole_frame = true;       // the frame's wall clock means something
-    std::vector<SweepSeries> more; // measured already
+    bool whole_frame = true;       // whether to report the wall clock of the frame
+    std::vector<SweepSeries> more; // series that are measured already
     std::vector<std::shared_ptr<const void>> kept;
 };
 
@@ -70,7 +70,7 @@ head::Model head_of(const scene::Scene& scene)
     return head;
 }
 
-/// The scene's first day in full, every pass of it.
+/// Draws the scene's first day; every pass runs in every frame.
 stage::MeasuredCase whole_frame(const std::shared_ptr<const stage::Stage>& stage,
                                 std::array<std::uint32_t, 2> size)
 {
@@ -92,7 +92,7 @@ std::shared_ptr<const stage::Stage> make_stage(const gpu::Device& device, const 
 Steps sizes(const scene::Scene& scene, const gpu::Device& device)
 {
     Steps steps{.x_label = "pixels",
-                .fixed = "the scene, its shape of the picture; every pass runs in every frame"};
+                .fixed = "the scene and its aspect ratio; every pass runs in every frame"};
     const auto stage = make_stage(device, scene);
     for (const double factor : {0.125, 0.25, 0.5, 0.75, 1.0, 1.5}) {
         const std::array<std::uint32_t, 2> size{
@@ -111,10 +111,10 @@ Steps triangles(const scene::Scene& scene, const gpu::Device& device)
     Steps steps{
         .x_label = "triangles drawn",
         .fixed = fmt::format("{}x{}, the scene; the head subdivided at edge middles (x4, x16) or clustered "
-                             "(1/2, 1/4, 1/8), its pictures at most {} texels a side; every pass runs in "
+                             "(1/2, 1/4, 1/8), its textures at most {} texels a side; every pass runs in "
                              "every frame",
-                             scene.size[0], scene.size[1], small_picture)};
-    const head::Model head = with_small_pictures(head_of(scene), small_picture);
+                             scene.size[0], scene.size[1], max_texture_side)};
+    const head::Model head = with_small_pictures(head_of(scene), max_texture_side);
     std::vector<head::Model> heads;
     for (const double share : {0.125, 0.25, 0.5})
         heads.push_back(clustered(head, share));
@@ -135,12 +135,12 @@ Steps triangles(const scene::Scene& scene, const gpu::Device& device)
 
 Steps wounds(const scene::Scene& scene, const gpu::Device& device)
 {
-    Steps steps{.x_label = "wounds",
-                .fixed =
-                    fmt::format("{}x{}, the head with pictures of at most {} texels a side; wounds as the "
-                                "scene's first but half as wide, all over the face; every pass runs in every "
-                                "frame",
-                                scene.size[0], scene.size[1], small_picture)};
+    Steps steps{
+        .x_label = "wounds",
+        .fixed = fmt::format("{}x{}, the head with textures of at most {} texels a side; wounds like the "
+                             "scene's first at half its width, all over the face; every pass runs in every "
+                             "frame",
+                             scene.size[0], scene.size[1], max_texture_side)};
     const std::vector<head::Place> places{std::string("cheek"),        std::string("eyebrow"),
                                           std::string("chin"),         std::string("forehead"),
                                           head::FacePoint{-0.3, -0.1}, head::FacePoint{-0.25, 0.45},
@@ -148,7 +148,7 @@ Steps wounds(const scene::Scene& scene, const gpu::Device& device)
     static_assert(shared::MAX_WOUNDS >= 7);
     const ScratchFolder folder;
     scene::Scene changed = scene;
-    changed.head = folder.saved(with_small_pictures(head_of(scene), small_picture), "head");
+    changed.head = folder.saved(with_small_pictures(head_of(scene), max_texture_side), "head");
     scene::Wound wound = scene.wounds.empty() ? scene::Wound{} : scene.wounds.front();
     wound.width_mm /= 2;
     changed.wounds.clear();
@@ -171,7 +171,7 @@ wound::PreparedWound first_wound(const stage::Stage& stage, const char* kind)
     return stage.loaded().wounds.front().prepared();
 }
 
-/// Evenly spaced along a closed polyline.
+/// `count` points evenly spaced along the closed polyline `border`.
 std::vector<cv::Point2d> sampled(const std::vector<cv::Point2d>& border, std::size_t count)
 {
     std::vector<double> along{0};
@@ -197,7 +197,7 @@ Steps points(const scene::Scene& scene, const gpu::Device& device, const stage::
     Steps steps{.x_label = "control points",
                 .fixed = fmt::format(
                     "the scene's first wound, {0}x{0} texels; points evenly along its border (the thin plate "
-                    "has fixed ones on the patch's frame, too). grid: the default warp; dense: the paper's "
+                    "also has fixed points on the patch's frame). grid: the default warp; dense: the paper's "
                     "thin plate in every texel",
                     first.patch.mask.cols),
                 .prefixes = {"grid: ", "dense: "},
@@ -240,11 +240,11 @@ Steps tables(const scene::Scene& scene)
     const wound::Healing healing = (scene.wounds.empty() ? scene::Wound{} : scene.wounds.front()).healing;
     const double last_day = std::max(1.0, *std::ranges::max_element(scene.days));
     Steps steps{.x_label = "texels",
-                .fixed = "the scene's tissue and reflectance model; as many days as depths",
+                .fixed = "the scene's tissue and reflectance model; equal numbers of days and depths",
                 .declaring = "the rows' tissue, on the CPU",
                 .whole_frame = false};
     for (std::uint32_t side = 8; side <= 512; side *= 2) {
-        steps.x.push_back(2.0 * side * side); // open and covered
+        steps.x.push_back(2.0 * side * side); // two tables: open and covered
         steps.cases.push_back(
             {"", "",
              [=, level = std::min(scene.reflectance_model, optics::ReflectanceModel::Calibrated)](
@@ -274,7 +274,7 @@ Steps steps_of(const std::string& kind, const scene::Scene& scene, const gpu::De
     return tables(scene);
 }
 
-/// "wound_texture 3" is wound_texture of the third wound.
+/// "wound_texture 3" (the pass of the third wound) -> "wound_texture".
 std::string without_number(const std::string& pass)
 {
     const auto blank = pass.rfind(' ');
@@ -283,7 +283,7 @@ std::string without_number(const std::string& pass)
                : pass;
 }
 
-/// Per thing that takes time, its time in every frame.
+/// Name of a pass, "frame" or the CPU work -> its time in every frame, ms.
 std::map<std::string, std::vector<double>> times_of(const stage::Measurement& measurement, const Steps& steps)
 {
     std::map<std::string, std::vector<double>> times;

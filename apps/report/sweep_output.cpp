@@ -1,4 +1,4 @@
-// What a sweep looks like: as text, as JSON, as a plot.
+// The output of a sweep: text, JSON and chart.
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>
@@ -10,7 +10,7 @@ namespace report_command {
 namespace {
 using nlohmann::json;
 
-constexpr double least_ms = 1e-4; // drawn: a logarithm has no place for zero
+constexpr double least_ms = 1e-4; // smaller times are drawn here: zero has no logarithm
 
 std::string law_text(const std::optional<base::PowerLaw>& law, const std::string& x)
 {

@@ -13,7 +13,8 @@ namespace segmentation_command {
 
 namespace {
 
-/// With a rectangle a tenth larger than the mask's, with a seed in its middle, and without a hint.
+/// Segments the photo with three hints: the mask's bounding box plus a margin of 1/10 of its size on each
+/// side, a seed at its centre, and none; prints how well each result agrees with the mask.
 void measure_segmentation(const std::string& photo, const std::string& mask)
 {
     const cv::Mat3b srgb = base::read_rgb(photo);
@@ -28,10 +29,11 @@ void measure_segmentation(const std::string& photo, const std::string& mask)
     {
         const cv::Mat1b found = wound::segment(srgb, hints, photo);
         const wound::ContourAgreement fit = wound::agreement(found, truth);
-        fmt::print("{:<10} intersection over union {:.3f}; laid centroid on centroid {:.3f}, border {:.1f} "
-                   "px apart, area {:.3f} of the mask's\n",
-                   name, wound::intersection_over_union(found, truth), fit.intersection_over_union,
-                   fit.border_distance_px, fit.area_ratio);
+        fmt::print(
+            "{:<10} intersection over union {:.3f}; after aligning the centroids {:.3f}, border {:.1f} "
+            "px apart, area {:.3f} of the mask's\n",
+            name, wound::intersection_over_union(found, truth), fit.intersection_over_union,
+            fit.border_distance_px, fit.area_ratio);
     }
 }
 
@@ -41,11 +43,13 @@ void add(CLI::App& program)
 {
     auto files = std::make_shared<std::pair<std::string, std::string>>();
     CLI::App* command = program.add_subcommand(
-        "segmentation", "Compare the wound found in a photograph with one drawn by hand");
+        "segmentation", "Compare the wound found in a photograph with a mask drawn by hand");
     command->add_option("photo", files->first, "Photograph of a wound, PNG or JPEG")
         ->required()
         ->type_name("PHOTO");
-    command->add_option("mask", files->second, "The wound white on black")->required()->type_name("MASK");
+    command->add_option("mask", files->second, "Mask drawn by hand, white in the wound")
+        ->required()
+        ->type_name("MASK");
     command->footer("Example: cicatrix segmentation photo.png mask.png");
     command->callback([files] { measure_segmentation(files->first, files->second); });
 }

@@ -1,4 +1,4 @@
-// `cicatrix segmentation PHOTO MASK`: a wound found in a photograph against one drawn by hand.
+// `cicatrix segmentation PHOTO MASK`: compares the segmentation of a photograph with a mask drawn by hand.
 #pragma once
 
 namespace CLI {

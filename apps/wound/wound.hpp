@@ -1,4 +1,4 @@
-// `cicatrix wound PHOTO`: what is made of a photograph. Needs no Vulkan device.
+// `cicatrix wound PHOTO`: shows how a photograph is processed. Needs no Vulkan device.
 #pragma once
 
 namespace CLI {

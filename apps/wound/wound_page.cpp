@@ -22,11 +22,11 @@ constexpr int tile_side = 264, gap_px = 8, column_count = 6, title_height = 24; 
 constexpr int page_width = column_count * (tile_side + gap_px) + gap_px;
 constexpr int charts_height = 330;
 constexpr std::array shown_ratios{1., .8, .6, .4, .2, .05};
-constexpr double shown_ratio = .4; // of the displacements and the grid: the paper's Figure 4
+constexpr double shown_ratio = .4; // r of the displacements and the grid (the paper's Figure 4)
 constexpr base::Paint paper = base::palette::white, border_paint = base::paint(0x009646),
                       point_paint = base::paint(0xc81e1e), arrow_paint = base::paint(0x143cc8);
 
-/// Page position of a tile.
+/// Position of a tile on the page, px.
 cv::Rect tile(int row, int column)
 {
     return {gap_px + column * (tile_side + gap_px), title_height + row * (tile_side + title_height + gap_px),
@@ -43,7 +43,7 @@ void put(cv::Mat3b& page, const cv::Mat3b& picture, int row, int column, const s
     base::draw_text(page, title, {place.x, place.y - 7});
 }
 
-/// A patch coordinate as a pixel of a size x size picture, in sixteenths.
+/// Converts patch coordinates (-1..1) to 1/16 pixels of a picture of `size` x `size`.
 cv::Point sixteenths(cv::Point2d p, int size)
 {
     return {cvRound(((p.x + 1) * size / 2 - .5) * 16), cvRound(((p.y + 1) * size / 2 - .5) * 16)};
@@ -57,7 +57,7 @@ void outline(cv::Mat3b& picture, const std::vector<cv::Point2d>& curve, base::Pa
     cv::polylines(picture, std::vector{points}, true, base::scalar_of(paint), 2, cv::LINE_AA, 4);
 }
 
-/// The whole photograph in a square, with the mask's outline and the patch's frame.
+/// The whole photograph in a square, with the mask's outline and the patch's frame and centre.
 cv::Mat3b photograph_with_mask(const wound::Photograph& photograph, const wound::PreparedWound& wound)
 {
     const int side = std::max(photograph.srgb.cols, photograph.srgb.rows);
@@ -75,7 +75,8 @@ cv::Mat3b photograph_with_mask(const wound::Photograph& photograph, const wound:
     return square;
 }
 
-/// Figure 1: border, the points D_n from the centroid, and where d_n = D_n (1 - sqrt r) takes them.
+/// Figure 1: the border, the control points at distance D_n from the centroid, and their displacements
+/// d_n = D_n (1 - sqrt r).
 cv::Mat3b displacements(const cv::Mat3b& color, const wound::PreparedWound& wound)
 {
     cv::Mat3b picture = color.clone();
@@ -92,11 +93,11 @@ cv::Mat3b displacements(const cv::Mat3b& color, const wound::PreparedWound& woun
     return picture;
 }
 
-/// Today's image of a square grid drawn on the skin on day 0, and the border's.
+/// A square grid drawn on the skin on day 0 after the warp, and the warped border.
 cv::Mat3b warped_grid(const wound::Warp& warp, const wound::PreparedWound& wound)
 {
     constexpr int map_size = 528;
-    constexpr double lines = 12; // per patch unit
+    constexpr double lines = 12; // per patch unit (half the patch width)
     const cv::Mat2d back = wound::backward_map(warp, map_size);
     cv::Mat3b picture(map_size, map_size, base::rgb_of(paper));
     const auto cell = [&](int j, int i, int axis) { return std::floor(back(j, i)[axis] * lines); };
@@ -112,7 +113,7 @@ cv::Mat3b warped_grid(const wound::Warp& warp, const wound::PreparedWound& wound
     return picture;
 }
 
-/// The rival of Figure 4 (a): the picture itself made smaller.
+/// The alternative in Figure 4 (a): the whole picture scaled by sqrt(ratio) about its centre.
 cv::Mat3b plainly_scaled(const cv::Mat3b& color, double ratio)
 {
     const double scale = std::sqrt(ratio), middle = (color.cols - 1) / 2.;
@@ -224,7 +225,7 @@ cv::Mat3b draw_wound_page(const wound::Photograph& photograph, const wound::Prep
 
 nlohmann::json wound_to_json(const wound::PreparedWound& wound, const wound::Healing& healing)
 {
-    const double pixels = wound.photo_side / 2; // per patch unit
+    const double pixels = wound.photo_side / 2; // of the photograph, per patch unit
     const auto in_photo = [&](cv::Point2d p) {
         const cv::Point2d q = wound.photo_center + p * pixels;
         return nlohmann::json{q.x, q.y};
@@ -240,7 +241,7 @@ nlohmann::json wound_to_json(const wound::PreparedWound& wound, const wound::Hea
         const wound::Warp warp = wound::make_warp(wound.flow, r);
         const wound::FoldCheck check = wound::check_folds(warp, wound.patch.mask.cols);
         const double area =
-            wound::signed_area(wound::outline_today(warp, wound.border)); // a mask may miss it
+            wound::signed_area(wound::outline_today(warp, wound.border)); // a mask may miss a small wound
         folds += check.folded_texels;
         warps.push_back({{"ratio", r},
                          {"area_ratio", area / wound::signed_area(wound.border)},

@@ -195,11 +195,11 @@ TEST_F(Batch, BadTablesAreRefusedByLineAndColumn)
     EXPECT_THAT(refused("wounds.2.seed\n3\n"), HasSubstr("column wounds.2.seed"));
     EXPECT_THAT(refused("size.x\n3\n"), HasSubstr("column size.x"));
     EXPECT_THAT(refused("a,b\n3\n"), HasSubstr("has 1 cells, the header 2"));
-    EXPECT_THAT(refused("days,days\n3,4\n"), HasSubstr("there twice"));
-    EXPECT_THAT(refused("name\nx\nx\n"), HasSubstr("line 3, column name: \"x\" is there twice"));
-    EXPECT_THAT(refused("name\n../x\n"), HasSubstr("no name for a folder"));
+    EXPECT_THAT(refused("days,days\n3,4\n"), HasSubstr("occurs twice"));
+    EXPECT_THAT(refused("name\nx\nx\n"), HasSubstr("line 3, column name: \"x\" occurs twice"));
+    EXPECT_THAT(refused("name\n../x\n"), HasSubstr("not a valid folder name"));
     EXPECT_THAT(refused("days\n"), HasSubstr("holds no variations"));
-    EXPECT_THAT(refused("days\n\"3\n"), HasSubstr("quote that never ends"));
+    EXPECT_THAT(refused("days\n\"3\n"), HasSubstr("unclosed quote"));
     const std::string on_a_head = "head,wounds.0.at,wounds.0.photo,tissue\n" + head_;
     EXPECT_THAT(refused(on_a_head + ",elbow,,\n"), HasSubstr("column wounds.0.at: \"elbow\""));
     EXPECT_THAT(refused(on_a_head + ",chin,none.png,\n"),
