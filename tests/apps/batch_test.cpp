@@ -1,4 +1,4 @@
-// Batches: tables of variations, shares, going on after a stop, and the COCO documents they end in.
+// Batches: tables of variations, shares, resuming after a stop, and the resulting COCO documents.
 #include <fmt/format.h>
 #include <fstream>
 #include <functional>
@@ -26,7 +26,7 @@ using batch_command::Variation;
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// As pycocotools decodes an uncompressed mask: columns, beginning with what is outside.
+/// Decodes an uncompressed mask like pycocotools: column by column, the first run is outside.
 cv::Mat1b decoded(const json& rle)
 {
     cv::Mat1b mask = cv::Mat1b::zeros(rle.at("size")[0], rle.at("size")[1]);
@@ -46,7 +46,7 @@ bool same(const cv::Mat1b& a, const cv::Mat1b& b)
     return a.size() == b.size() && cv::countNonZero((a != 0) != (b != 0)) == 0;
 }
 
-/// Whatever a document says of its pictures is true of the masks that lie beside it.
+/// Checks the ids, picture sizes, areas and boxes of a COCO document against its pictures and masks.
 void expect_sound(const json& coco, const std::filesystem::path& folder)
 {
     std::set<int> images, regions, categories;
@@ -112,7 +112,7 @@ TEST(Coco, MasksSurviveTheirRunLengths)
     mask(0, 0) = mask(6, 1) = mask(0, 2) = mask(3, 4) = mask(4, 4) = 255;
     const json rle = stage::run_lengths(mask);
     EXPECT_EQ(rle.at("size"), json({7, 5}));
-    EXPECT_EQ(rle.at("counts")[0], 0) << "the first run is of what is outside";
+    EXPECT_EQ(rle.at("counts")[0], 0) << "the first run is outside the mask";
     EXPECT_TRUE(same(decoded(rle), mask));
     mask.setTo(255);
     EXPECT_EQ(stage::run_lengths(mask).at("counts"), json({0, 35}));
@@ -125,7 +125,7 @@ TEST(Coco, JoinedDocumentsKeepTheirRegionsAtTheirImages)
     stage::Coco one, all;
     one.add_region(one.add_image("a.png", mask.size(), {{"day", 3}}), stage::CocoCategory::OpenBed, mask, {});
     one.add_region(one.add_image("b.png", mask.size(), {}), stage::CocoCategory::Wound, mask, {});
-    one.add_region(1, stage::CocoCategory::NewEpithelium, cv::Mat1b::zeros(4, 4), {}); // nothing there
+    one.add_region(1, stage::CocoCategory::NewEpithelium, cv::Mat1b::zeros(4, 4), {}); // empty
     all.join(one.document(), "first");
     all.join(one.document(), "second");
     const json joined = all.document();
@@ -155,7 +155,7 @@ TEST_F(Batch, RowsChangeTheFieldsTheyName)
     EXPECT_EQ(rows[0].scene.wounds[0].width_mm, 12.5);
     EXPECT_EQ(std::get<head::FacePoint>(rows[0].scene.wounds[0].place).y, .2);
     EXPECT_EQ(rows[0].scene.wounds[0].photo, folder_ / "new.png");
-    EXPECT_TRUE(rows[0].scene.wounds[0].mask.empty()) << "it belonged to the other photograph";
+    EXPECT_TRUE(rows[0].scene.wounds[0].mask.empty()) << "the mask belonged to the old photograph";
     EXPECT_EQ(rows[0].scene.days, (std::vector<double>{0, 5}));
     EXPECT_EQ(rows[0].scene.lights[0].from.azimuth_deg, -20);
     EXPECT_EQ(rows[0].scene.lights[0].intensity, base.lights[0].intensity);
@@ -253,7 +253,7 @@ TEST_F(Batch, RandomTablesAreReproducibleAndValid)
     EXPECT_EQ(photos, (std::set<std::string>{"a, b.png", "c.png"}));
 }
 
-TEST_F(Batch, SharesMakeTheWholeAndAStoppedOneGoesOn)
+TEST_F(Batch, SharesCompleteTheBatchAndAStoppedBatchResumes)
 {
     folder_.with("table.csv", "name,wounds.0.width_mm,days\nsmall,14,0\nlarge,40,\"0,9\"\nlate,30,12\n");
     const std::string out = (folder_ / "out").string();
@@ -264,7 +264,7 @@ TEST_F(Batch, SharesMakeTheWholeAndAStoppedOneGoesOn)
     EXPECT_EQ(early.code, 1);
     EXPECT_THAT(early.err, HasSubstr("1 of 3 variations are not finished, the first is large"));
 
-    // A half-drawn one and one whose row has changed are drawn again, a finished one is left alone.
+    // A half-drawn variation and one with a changed row are drawn again; a finished one is kept.
     std::filesystem::create_directories(folder_ / "out/.large.partial");
     folder_.with("out/.large.partial/day_000.png", "half");
     const auto untouched = std::filesystem::last_write_time(folder_ / "out/small/variation.json");
@@ -290,8 +290,8 @@ TEST_F(Batch, SharesMakeTheWholeAndAStoppedOneGoesOn)
     EXPECT_EQ(lines, 5);
 }
 
-/// Killed after the old variation was set aside and before the new one was in its place.
-TEST_F(Batch, OneThatWasKilledWhileItReplacedAVariationGoesOn)
+/// Killed after the old variation was set aside and before the new one replaced it.
+TEST_F(Batch, ResumesAfterAKillDuringTheReplacementOfAVariation)
 {
     folder_.with("table.csv", "name,days\none,0\n");
     const auto out = folder_ / "out";
@@ -301,7 +301,7 @@ TEST_F(Batch, OneThatWasKilledWhileItReplacedAVariationGoesOn)
     ASSERT_EQ(again.code, 0) << again.err;
     EXPECT_THAT(again.out, HasSubstr("0 variations drawn, 1 kept, 0 failed"));
 
-    // The same, and the row has changed: what was set aside is replaced once more, and nothing is left over.
+    // The same with a changed row: the variation set aside is replaced again, and no folder is left over.
     std::filesystem::rename(out / "one", out / ".one.replaced");
     folder_.with("table.csv", "name,days\none,3\n");
     ASSERT_EQ(batch({"--out", out.string()}).code, 0);
@@ -309,7 +309,7 @@ TEST_F(Batch, OneThatWasKilledWhileItReplacedAVariationGoesOn)
     EXPECT_FALSE(std::filesystem::exists(out / ".one.replaced"));
 }
 
-TEST_F(Batch, MergedOnAFullDiskFailsAndKeepsWhatWasThere)
+TEST_F(Batch, MergingOnAFullDiskFailsAndKeepsTheOldFiles)
 {
     folder_.with("table.csv", "name,days\none,0\n");
     const auto out = folder_ / "out";
@@ -348,7 +348,7 @@ TEST_F(Batch, AFailingVariationDoesNotStopTheOthers)
         EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / name / "variation.json"));
 }
 
-TEST_F(Batch, NoVariationShowsWhatCameBeforeIt)
+TEST_F(Batch, VariationsDoNotDependOnEarlierOnes)
 {
     std::filesystem::copy_file(head_, folder_ / "other.glb");
     folder_.with("table.csv",
@@ -393,7 +393,7 @@ TEST_F(Batch, CaptureWritesLabelsBesideItsPictures)
         EXPECT_GT(wound.at("bed_mm2"), 50);
         EXPECT_TRUE(frame.contains("camera"));
     }
-    // The wound has one size, from wherever it is seen.
+    // The size of the wound does not depend on the view.
     EXPECT_EQ(labels.at("frames")[0].at("wounds")[0].at("bed_mm2"),
               labels.at("frames")[1].at("wounds")[0].at("bed_mm2"));
 }

@@ -1,4 +1,4 @@
-// The man page and the completions against what --help says, and that every --help teaches.
+// The man page and the completions against --help; every --help has an example.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,14 +30,14 @@ std::set<std::string> found(const std::string& text, const std::string& pattern)
     return all;
 }
 
-/// Of the program's help: what stands two blanks from the left below "Subcommands:".
+/// The commands in the program's help: words indented by two blanks below "Subcommands:".
 std::set<std::string> commands()
 {
     const std::string text = help({});
     return found(text.substr(std::min(text.find("Subcommands:"), text.size())), "\n  ([a-z][a-z-]*) ");
 }
 
-/// At the beginning of a line of help.
+/// The options at the beginning of lines of help.
 std::set<std::string> options(const std::string& text)
 {
     return found(text, "\n  (?:-[a-z],)?(--[a-z][a-z-]*)");
@@ -50,7 +50,7 @@ std::string document(const std::string& kind)
     return outcome.out;
 }
 
-/// What stands between the first `begin` and the next `end`; empty where there is none.
+/// The text from the first `begin` to the next `end`; empty where there is no `begin`.
 std::string between(const std::string& text, const std::string& begin, const std::string& end)
 {
     const std::size_t from = text.find(begin);
@@ -82,7 +82,7 @@ TEST(CommandDocuments, HoldEveryCommandAndOptionOfTheHelp)
     EXPECT_THAT(bash, HasSubstr("capture:--mode) words='published corrected'"));
 }
 
-TEST(CommandDocuments, EveryHelpTeachesWithAnExample)
+TEST(CommandDocuments, EveryHelpHasAnExample)
 {
     EXPECT_THAT(help({}), HasSubstr("Example: cicatrix "));
     for (const std::string& command : commands())

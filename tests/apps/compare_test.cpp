@@ -1,4 +1,4 @@
-// Two pictures' colour difference, and `cicatrix compare`.
+// The colour difference of two pictures, and `cicatrix compare`.
 #include "apps/compare/compare.hpp"
 
 #include <fstream>
@@ -26,7 +26,7 @@ double difference_of(const cv::Vec4b& a, const cv::Vec4b& b)
 
 } // namespace
 
-TEST(ColorDifference, IsTakenOnTheHeadOnly)
+TEST(ColorDifference, IsMeasuredOnTheHeadOnly)
 {
     cv::Mat4b a(10, 10, skin), b = a.clone();
     EXPECT_EQ(compare_command::color_difference(a, b).max, 0);
@@ -52,7 +52,7 @@ TEST(ColorDifference, OfPicturesWithoutAHeadIsZero)
     EXPECT_EQ(difference.mean + difference.max + difference.percentile_95, 0);
 }
 
-TEST(Compare, FindsWhereTwoScenesDifferAndRefusesUnequalOnes)
+TEST(Compare, MeasuresTheDifferenceAndRefusesOtherSizesAndDays)
 {
     const TemporaryFolder folder;
     const std::string head = "\"head\": \"" + small::saved(small::head()).string() + "\", ";

@@ -1,4 +1,4 @@
-// What the demo's gestures do to a scene, without a window.
+// Effects of the demo's gestures on a scene, without a window.
 #include "apps/demo/edit.hpp"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 
 namespace {
 
-/// A camera a metre in front of a wound of 30 mm in the origin, which faces it.
+/// A camera 1 m in front of a 30 mm wound at the origin that faces the camera.
 struct Facing
 {
     Facing()
@@ -17,13 +17,13 @@ struct Facing
         head.max = glm::vec3(.1f);
         sight = demo_command::Sight(
             passes::make_view({{0, 0, 1}, {0, 0, 0}, 20}, head, passes::ViewportTile({200, 100})));
-        anchor.half_width_m = .015 / .45; // of the patch, of which the wound takes .45
+        anchor.half_width_m = .015 / .45; // of the patch; the wound takes .45 of it
     }
     demo_command::Sight sight;
     head::Anchor anchor;
 };
 
-TEST(Sight, ProjectsAndComesBack)
+TEST(Sight, ProjectsAndUnprojects)
 {
     const Facing on;
     EXPECT_NEAR(glm::distance(on.sight.project({0, 0, 0}).value(), glm::dvec2(.5)), 0, 1e-6);
@@ -35,7 +35,7 @@ TEST(Sight, ProjectsAndComesBack)
     ASSERT_TRUE(back);
     EXPECT_NEAR(glm::distance(*back, glm::dvec3(.02, .03, 0)), 0, 1e-6);
     EXPECT_FALSE(on.sight.project({0, 0, 2})) << "behind the camera";
-    EXPECT_FALSE(on.sight.on_plane({.5, .5}, {0, .1, 0}, {0, 1, 0})) << "along the plane";
+    EXPECT_FALSE(on.sight.on_plane({.5, .5}, {0, .1, 0}, {0, 1, 0})) << "parallel to the plane";
 }
 
 TEST(WoundOutline, HasItsHandlesRightAndAbove)
@@ -59,41 +59,41 @@ TEST(WoundHandles, SetWidthAndRoll)
     const auto outline = demo_command::outline_of(on.anchor, on.sight);
     ASSERT_TRUE(outline);
     EXPECT_NEAR(demo_command::dragged_width_mm(on.anchor, on.sight, outline->width_handle, 1), 30, 1e-3)
-        << "where it is";
+        << "at its current position";
     EXPECT_NEAR(demo_command::dragged_width_mm(on.anchor, on.sight, *on.sight.project({0, .03, 0}), 1), 60,
                 1e-3);
     EXPECT_NEAR(demo_command::dragged_roll_deg(on.anchor, on.sight, outline->roll_handle, 10), 10, 1e-3)
-        << "where it is";
+        << "at its current position";
     EXPECT_NEAR(demo_command::dragged_roll_deg(on.anchor, on.sight, *on.sight.project({-.03, 0, 0}), 10), 100,
                 1e-3)
         << "counter-clockwise";
 }
 
-TEST(PublishedMode, ComesAndGoes)
+TEST(PublishedMode, CanBeSwitchedOnAndOff)
 {
-    const scene::Scene mended;
-    scene::Scene scene = mended;
+    const scene::Scene corrected;
+    scene::Scene scene = corrected;
     EXPECT_FALSE(demo_command::is_published(scene));
-    demo_command::set_published(scene, true, mended);
+    demo_command::set_published(scene, true, corrected);
     EXPECT_TRUE(demo_command::is_published(scene));
-    demo_command::set_published(scene, false, mended);
-    EXPECT_EQ(scene, mended);
+    demo_command::set_published(scene, false, corrected);
+    EXPECT_EQ(scene, corrected);
 }
 
-TEST(PublishedMode, KeepsWhatWasMovedMeanwhile)
+TEST(PublishedMode, KeepsEditsMadeMeanwhile)
 {
-    const scene::Scene mended;
-    scene::Scene scene = mended;
-    demo_command::set_published(scene, true, mended);
+    const scene::Scene corrected;
+    scene::Scene scene = corrected;
+    demo_command::set_published(scene, true, corrected);
     scene.lights.front().from.azimuth_deg = 50;
     scene.wounds.front().width_mm = 40;
-    demo_command::set_published(scene, false, mended);
+    demo_command::set_published(scene, false, corrected);
     EXPECT_EQ(scene.lights.front().from.azimuth_deg, 50);
-    EXPECT_EQ(scene.lights.size(), mended.lights.size());
+    EXPECT_EQ(scene.lights.size(), corrected.lights.size());
     EXPECT_EQ(scene.wounds.front().width_mm, 40);
 }
 
-TEST(NextWound, IsUnlikeThoseThereAre)
+TEST(NextWound, DiffersFromTheExistingOnes)
 {
     scene::Scene scene;
     const scene::Wound second = demo_command::next_wound(scene);

@@ -1,5 +1,4 @@
-// What the demo's user is doing, without a window: time running, the size of pictures while something moves,
-// messages.
+// The state of a demo session, without a window: playback, the size of pictures during motion, messages.
 #include "apps/demo/session.hpp"
 
 #include <algorithm>
@@ -36,7 +35,7 @@ TEST(TimelineAxis, OfAWoundThatNeverClosesHasNoScar)
         EXPECT_LE(tick.day, 40);
 }
 
-TEST(TimelineAxis, TicksFitAndName)
+TEST(TimelineAxis, TicksFitAndHaveLabels)
 {
     const auto ticks = demo_command::TimelineAxis(30).ticks(12);
     EXPECT_LE(ticks.size(), 14u);
@@ -45,7 +44,7 @@ TEST(TimelineAxis, TicksFitAndName)
     EXPECT_TRUE(std::ranges::is_sorted(ticks, {}, &demo_command::TimelineAxis::Tick::day));
 }
 
-TEST(Playback, RunsToTheLastDayAndStartsAnew)
+TEST(Playback, RunsToTheLastDayAndRestarts)
 {
     demo_command::Playback playback{
         .axis = demo_command::TimelineAxis(std::numeric_limits<double>::infinity(), 10),
@@ -73,7 +72,7 @@ TEST(Playback, StaysWithinItsDays)
     EXPECT_EQ(playback.day, 10);
 }
 
-TEST(Quality, RendersInFullWhatTakesLittleTime)
+TEST(Quality, RendersFastPicturesAtFullSize)
 {
     demo_command::Quality quality;
     quality.rendered(1, 8);
@@ -95,20 +94,20 @@ TEST(Quality, RendersSmallerWhileMovingAndInFullAfterwards)
     EXPECT_EQ(quality.due_in(101), 0.0);
     EXPECT_EQ(quality.scale(101), 1);
     quality.rendered(1, 200);
-    EXPECT_EQ(quality.due_in(101), std::nullopt) << "the full picture is there";
+    EXPECT_EQ(quality.due_in(101), std::nullopt) << "the full picture is drawn";
 }
 
-TEST(Quality, DoesNotGoBackAndForthBetweenSizes)
+TEST(Quality, DoesNotOscillateBetweenSizes)
 {
     demo_command::Quality quality;
     quality.rendered(1, 60);
     quality.moving(0);
     const double scale = quality.scale(0);
-    quality.rendered(scale, 60 * std::pow(scale, 1.5) * .95); // a little faster than foreseen
+    quality.rendered(scale, 60 * std::pow(scale, 1.5) * .95); // a little faster than predicted
     EXPECT_EQ(quality.scale(0), scale);
 }
 
-TEST(Notices, GoAfterAWhileButErrorsStay)
+TEST(Notices, ExpireExceptErrors)
 {
     demo_command::Notices notices;
     EXPECT_EQ(notices.next_change(), std::nullopt);

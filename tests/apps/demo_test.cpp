@@ -1,6 +1,6 @@
-// The window as its user sees it: a real window on a desktop without a screen, driven by mouse and keys,
-// looked at by pictures of the screen. Vulkan's validation is on: the program ends with an error after any of
-// its messages.
+// The window as its user sees it: a real window on a virtual X server, driven by mouse and keys and checked
+// by pictures of the screen. Vulkan validation is on: after any validation message the program ends with an
+// error.
 #include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -52,30 +52,30 @@ class DemoWindowTest : public testing::Test
 
     void click(double x, double y, const char* button = "1") const
     {
-        desktop_.user({"mousemove", whole(x), whole(y), "click", button});
+        desktop_.xdotool({"mousemove", whole(x), whole(y), "click", button});
     }
     /// Slowly enough for every frame to see where the pointer is.
     void drag(double x, double y, double to_x, double to_y, const char* button = "1") const
     {
-        desktop_.user({"mousemove", whole(x), whole(y), "mousedown", button});
+        desktop_.xdotool({"mousemove", whole(x), whole(y), "mousedown", button});
         for (int i = 1; i <= 4; ++i)
-            desktop_.user(
+            desktop_.xdotool(
                 {"mousemove", whole(x + (to_x - x) * i / 4), whole(y + (to_y - y) * i / 4), "sleep", "0.1"});
-        desktop_.user({"mouseup", button});
+        desktop_.xdotool({"mouseup", button});
     }
     /// Faster than any frame.
     void fling(double x, double y, double to_x, double to_y) const
     {
-        desktop_.user({"mousemove", whole(x), whole(y), "mousedown", "1", "mousemove", whole(to_x),
-                       whole(to_y), "mouseup", "1", "mousemove", whole(to_x + 90), whole(to_y)});
+        desktop_.xdotool({"mousemove", whole(x), whole(y), "mousedown", "1", "mousemove", whole(to_x),
+                          whole(to_y), "mouseup", "1", "mousemove", whole(to_x + 90), whole(to_y)});
     }
-    void key(const char* name) const { desktop_.user({"key", name}); }
+    void key(const char* name) const { desktop_.xdotool({"key", name}); }
     void type(const std::string& text) const
     {
-        desktop_.user({"key", "ctrl+a"});
-        desktop_.user({"type", "--delay", "30", text});
+        desktop_.xdotool({"key", "ctrl+a"});
+        desktop_.xdotool({"type", "--delay", "30", text});
     }
-    /// Shared by all that ask for a file's name; 0 is no dialog.
+    /// Opens the dialog of `shortcut` and types a file name; dialog 0 is none.
     json fill_in(Demo& demo, const char* shortcut, const std::string& path) const
     {
         key(shortcut);
@@ -83,8 +83,8 @@ class DemoWindowTest : public testing::Test
         type(path);
         return opened;
     }
-    /// Whether the view shows what capture draws of `file`, all but the sign of the light and an outline,
-    /// which are drawn over the picture.
+    /// Checks that the view equals what capture draws of `file`, except for the symbol of the light and an
+    /// outline, which are drawn over the picture.
     void expect_as_captured(const cv::Mat3b& view, const std::string& file) const
     {
         const std::string size = std::to_string(view.cols) + "x" + std::to_string(view.rows);
@@ -97,7 +97,7 @@ class DemoWindowTest : public testing::Test
         cv::inRange(difference, cv::Scalar(0, 0, 0), cv::Scalar(2, 2, 2), near);
         EXPECT_GT(cv::countNonZero(near), .995 * view.size().area());
     }
-    /// `edits`: some are not saved, which is asked about and confirmed by asking again.
+    /// `edits`: there are unsaved edits, so the program asks; quitting again confirms.
     void quit(Demo& demo, bool edits = false) const
     {
         key("ctrl+q");
@@ -121,7 +121,7 @@ class DemoWindowTest : public testing::Test
     Desktop desktop_;
 };
 
-/// Pixels in which red stands far above green and blue: an open wound.
+/// Pixels with red far above green and blue: an open wound.
 int red_pixels(const cv::Mat3b& rgb)
 {
     int count = 0;
@@ -130,7 +130,7 @@ int red_pixels(const cv::Mat3b& rgb)
     return count;
 }
 
-/// Pixels in the order of skin's channels, neither grey nor wound.
+/// Pixels with R > G > B as in skin, neither grey nor wound.
 int skin_pixels(const cv::Mat3b& rgb)
 {
     int count = 0;
@@ -172,13 +172,13 @@ TEST_F(DemoWindowTest, ScrubsOverTheDays)
     idle = demo.idle([](const json& now) { return now["day"] == 0; }, "the first day");
     EXPECT_NEAR(red_pixels(screen(idle, "view")), open, open / 50);
     key("space");
-    desktop_.user({"sleep", "0.5"});
+    desktop_.xdotool({"sleep", "0.5"});
     key("space");
-    demo.idle([](const json& now) { return now["day"] > .1; }, "days gone by");
+    demo.idle([](const json& now) { return now["day"] > .1; }, "some days of playback");
     quit(demo);
 }
 
-TEST_F(DemoWindowTest, PutsMovesAndDeletesWoundsByMouse)
+TEST_F(DemoWindowTest, PlacesMovesAndDeletesWounds)
 {
     Demo demo(desktop_, {scene("[]")});
     json idle = demo.idle();
@@ -214,11 +214,11 @@ TEST_F(DemoWindowTest, PutsMovesAndDeletesWoundsByMouse)
     key("ctrl+q");
     demo.idle([](const json& now) { return now["dialog"] == 8; }, "the question");
     key("Escape");
-    demo.idle([](const json& now) { return now["dialog"] == 0; }, "the scene, still there");
+    demo.idle([](const json& now) { return now["dialog"] == 0; }, "the question closed");
     quit(demo, true);
 }
 
-TEST_F(DemoWindowTest, TurnsTheHeadAndFollowsItsWindowsSize)
+TEST_F(DemoWindowTest, TurnsTheHeadAndFollowsTheWindowSize)
 {
     Demo demo(desktop_, {scene()});
     json idle = demo.idle();
@@ -231,23 +231,23 @@ TEST_F(DemoWindowTest, TurnsTheHeadAndFollowsItsWindowsSize)
         [&](const json& now) { return std::abs(now["wounds"][0]["at"][0].get<double>() - wound_x) > 8; },
         "the head turned");
     EXPECT_GT(cv::norm(before, screen(idle, "view"), cv::NORM_L1) / double(before.total()), 3);
-    // Small while it turned, whole again at rest.
+    // The picture is smaller while the head turns, and full-size again at rest.
     fill_in(demo, "ctrl+s", folder_ / "turned.json");
     key("Return");
     idle = demo.idle([](const json& now) { return now["dialog"] == 0; }, "the scene saved");
     expect_as_captured(screen(idle, "view"), folder_ / "turned.json");
 
-    desktop_.user({"search", "--name", "Cicatrix", "windowsize", "900", "640"});
+    desktop_.xdotool({"search", "--name", "Cicatrix", "windowsize", "900", "640"});
     idle = demo.idle([](const json& now) { return now["window"] == json({900, 640}); }, "the smaller window");
     EXPECT_GT(skin_pixels(screen(idle, "view")), box(idle["view"]).area() / 20);
-    desktop_.user({"search", "--name", "Cicatrix", "windowsize", "1500", "960"});
+    desktop_.xdotool({"search", "--name", "Cicatrix", "windowsize", "1500", "960"});
     idle = demo.idle([](const json& now) { return now["window"] == json({1500, 960}); }, "the larger window");
     EXPECT_GT(skin_pixels(screen(idle, "view")), box(idle["view"]).area() / 20);
     EXPECT_GT(red_pixels(screen(idle, "timeline")), 100);
 
-    desktop_.user({"search", "--name", "Cicatrix", "windowunmap", "--sync"});
-    EXPECT_EQ(skin_pixels(screen(idle, "view")), 0) << "the window is gone";
-    desktop_.user({"search", "--name", "Cicatrix", "windowmap", "--sync"});
+    desktop_.xdotool({"search", "--name", "Cicatrix", "windowunmap", "--sync"});
+    EXPECT_EQ(skin_pixels(screen(idle, "view")), 0) << "the window is unmapped";
+    desktop_.xdotool({"search", "--name", "Cicatrix", "windowmap", "--sync"});
     idle = demo.idle(at_least("frames", idle["frames"].get<int>() + 1), "the window back");
     EXPECT_GT(skin_pixels(screen(idle, "view")), box(idle["view"]).area() / 20);
     quit(demo);
@@ -259,7 +259,7 @@ TEST_F(DemoWindowTest, SavesWhatItShowsAndSurvivesBadFiles)
     json idle = demo.idle();
     const auto answer = [&](const char* shortcut, const std::string& path) {
         fill_in(demo, shortcut, path);
-        desktop_.user({"key", "Return"});
+        desktop_.xdotool({"key", "Return"});
         return demo.idle([](const json& now) { return now["dialog"] == 0 && !now["notices"].empty(); },
                          "a notice");
     };
@@ -290,7 +290,7 @@ TEST_F(DemoWindowTest, FollowsAPointerFasterThanItsFrames)
                   "the wound moved");
     EXPECT_NEAR(idle["wounds"][0]["at"][0], x, 8);
     EXPECT_NEAR(idle["wounds"][0]["at"][1], y - 50, 8);
-    key("c"); // the divider stands in the middle, over the head
+    key("c"); // the divider is in the middle, over the head
     idle = demo.idle(at_least("pictures", idle["pictures"].get<int>() + 1), "the split view");
     const cv::Rect view = box(idle["view"]);
     fling(view.x + view.width / 2, view.y + .9 * view.height, view.x + .25 * view.width,
@@ -301,7 +301,7 @@ TEST_F(DemoWindowTest, FollowsAPointerFasterThanItsFrames)
     quit(demo, true);
 }
 
-TEST_F(DemoWindowTest, TakesTheWoundInAnAreaOfAPhoto)
+TEST_F(DemoWindowTest, AddsTheWoundInAnAreaOfAPhoto)
 {
     const std::filesystem::path photo = folder_ / "photo.png";
     base::write_png(photo,
@@ -350,11 +350,10 @@ TEST_F(DemoWindowTest, SleepsWhileNothingChanges)
 {
     Demo demo(desktop_, {scene()});
     const json before = demo.idle();
-    // A ratio within one process, so that a slow machine does not matter: CPU time while days pass and while
-    // not.
+    // The ratio of CPU times during playback and at rest in one process: the machine's speed does not matter.
     const auto used_in_a_second = [&] {
         const double start = demo.process().cpu_seconds();
-        desktop_.user({"sleep", "1"});
+        desktop_.xdotool({"sleep", "1"});
         return demo.process().cpu_seconds() - start;
     };
     const double asleep = used_in_a_second();
@@ -368,7 +367,7 @@ TEST_F(DemoWindowTest, SleepsWhileNothingChanges)
     quit(demo);
 }
 
-TEST_F(DemoWindowTest, EndsWithOneLineWhenTheDisplayGoesAway)
+TEST_F(DemoWindowTest, EndsWithOneLineWhenTheDisplayIsLost)
 {
     Demo demo(desktop_, {scene()});
     const cv::Rect view = box(demo.idle()["view"]);
@@ -387,7 +386,7 @@ TEST_F(DemoWindowTest, EndsWithOneLineWhenTheDisplayGoesAway)
     std::filesystem::remove(rescued);
 }
 
-TEST(DemoWithoutDisplay, SaysSo)
+TEST(DemoWithoutDisplay, IsAnErrorOfOneLine)
 {
     const Outcome outcome = run_program({"demo"}, {"DISPLAY="});
     EXPECT_EQ(outcome.code, 1);

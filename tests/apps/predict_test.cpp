@@ -1,4 +1,4 @@
-// `cicatrix predict`: a drawn series whose course is known, and broken ones.
+// `cicatrix predict`: a synthetic series with a known healing curve, and invalid series.
 #include "apps/predict/predict.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using testing_wounds::photograph;
 
 constexpr double healing_rate = .2; // of the drawn wound's area, per day
 
-/// An ellipse that shrinks by exp(-healing_rate day) and drifts, and a table of its areas that lacks day 3.
+/// A drifting ellipse with the area ratio exp(-healing_rate day), and a table of areas that lacks day 3.
 struct DrawnSeries
 {
     TemporaryFolder folder;
@@ -63,7 +63,7 @@ TEST(Predict, AWoundThatHealsAsMeasuredIsFoundAsPredicted)
 {
     const predict_command::Prediction prediction = DrawnSeries().predict();
     ASSERT_EQ(prediction.days.size(), 6U);
-    EXPECT_FALSE(prediction.days[0].agreement) << "it is what the others are predicted from";
+    EXPECT_FALSE(prediction.days[0].agreement) << "the other days are predicted from it";
     EXPECT_EQ(prediction.days[0].observed_ratio, 1);
     for (const predict_command::PredictedDay& day : prediction.days) {
         const double ratio = std::exp(-healing_rate * day.day);
@@ -79,7 +79,7 @@ TEST(Predict, AWoundThatHealsAsMeasuredIsFoundAsPredicted)
     EXPECT_THAT(predict_command::to_markdown(prediction), HasSubstr("\n| 3 | - | 0.55 | 0.5"));
 }
 
-TEST(Predict, AWoundThatIsAlreadyShrunkenAgreesLess)
+TEST(Predict, AWoundThatShrankFasterThanPredictedAgreesLess)
 {
     DrawnSeries drawn;
     for (auto& day : drawn.series["days"]) // the photographs of two days later
@@ -93,7 +93,7 @@ TEST(Predict, AWoundThatIsAlreadyShrunkenAgreesLess)
     EXPECT_NEAR(prediction.days[2].agreement->area_ratio, std::exp(2 * healing_rate), .06);
 }
 
-TEST(Predict, ADayWithoutAVisibleWoundIsTold)
+TEST(Predict, ADayWithoutAVisibleWoundIsReported)
 {
     DrawnSeries drawn;
     base::write_png(drawn.folder / "day3.png",
@@ -109,7 +109,7 @@ TEST(Predict, ADayWithoutAVisibleWoundIsTold)
     EXPECT_EQ(json["fit"]["n"], 5);
 }
 
-TEST(Predict, PictureHoldsBothOutlines)
+TEST(Predict, PictureShowsBothOutlines)
 {
     const cv::Mat3b picture = predict_command::draw_prediction(DrawnSeries().predict());
     const auto count = [](const cv::Mat3b& part, cv::Scalar color) {

@@ -67,7 +67,7 @@ class Program : public testing::Test
         return file(name);
     }
 
-    /// A small capture, to be spoilt by `more`.
+    /// A capture with the arguments `more`.
     Outcome capture(const std::vector<std::string>& more,
                     const std::vector<std::string>& environment = {}) const
     {
@@ -151,7 +151,7 @@ TEST_F(Program, CapturesInPublishedModeWithAPhotographAndItsMask)
     EXPECT_THAT(files_in(file("out")), testing::Contains("day_009.png"));
 }
 
-TEST_F(Program, RecordsWhichOfTheScenesWoundsEachIs)
+TEST_F(Program, RecordsTheSceneWoundOfEachWound)
 {
     const cv::Mat1b two = disc(128, {40, 64}, 24) | disc(128, {100, 64}, 12);
     cv::Mat3b picture(two.size(), cv::Vec3b(208, 162, 140));
@@ -246,7 +246,7 @@ TEST_F(Program, RefusesBrokenMasks)
                    {"empty.png", "empty"});
 }
 
-TEST_F(Program, TakesAPhotographThatIsWoundAllOverAndSaysWhatItAssumes)
+TEST_F(Program, AcceptsAPhotographWithoutSkinAndNotesItsAssumption)
 {
     const std::string wound = with_png("photo.png", cv::Mat3b(photo()(cv::Rect(48, 48, 32, 32)))),
                       mask = with_png("full.png", cv::Mat1b(32, 32, 255));
@@ -254,7 +254,7 @@ TEST_F(Program, TakesAPhotographThatIsWoundAllOverAndSaysWhatItAssumes)
         EXPECT_EQ(outcome.code, 0) << outcome.err;
         const std::string note = "note: " + wound + ": shows no healthy skin";
         EXPECT_THAT(outcome.err, HasSubstr(note));
-        EXPECT_EQ(outcome.err.find(note), outcome.err.rfind(note)) << "once";
+        EXPECT_EQ(outcome.err.find(note), outcome.err.rfind(note)) << "the note must appear once";
         EXPECT_THAT(files_in(file("out")), testing::Contains(picture));
     };
     expect_note(run_program({"wound", wound, "--mask", mask, "--out", file("out")}), "wound.json");
@@ -295,7 +295,7 @@ TEST_F(Program, RefusesSenselessOptions)
     expect_refusal(run_program({}), {"--help"});
 }
 
-TEST_F(Program, RefusesNumbersThatAreNoneOrOutOfRange)
+TEST_F(Program, RefusesInvalidAndOutOfRangeNumbers)
 {
     const auto refused = [&](std::vector<std::string> arguments) {
         const std::vector<std::string> words(arguments.end() - 2, arguments.end());
@@ -312,7 +312,7 @@ TEST_F(Program, RefusesNumbersThatAreNoneOrOutOfRange)
     refused({"wound", "photo.png", "--out", out, "--spacing", "nan"});
     refused({"demo", "--scale", "nan"});
     refused({"reflect", "light", "--seed", "-1"});
-    refused({"reflect", "light", "--photons", "1"}); // of one photon there is no standard error
+    refused({"reflect", "light", "--photons", "1"}); // one photon has no standard error
     refused({"reflect", "light", "--photons", "2.5"});
     refused({"batch", "--random", "3", "--seed", "-1"});
     expect_refusal(run_program({"reflect", "light", "--photons", "1e12"}), {"2 to 1e10"});
@@ -350,7 +350,7 @@ TEST_F(Program, RefusesAnOutputFolderItCannotWrite)
     EXPECT_EQ(bytes_of(file("file")), "in the way");
     Outcome graph =
         run_program({"graph", "--head", head_, "--days", "0", "--size", "64x64", "--dot", below_a_file});
-    graph.out.clear(); // the text printed until then stands
+    graph.out.clear(); // ignores the text printed before the error
     expect_refusal(graph, {below_a_file});
 }
 
@@ -365,7 +365,7 @@ TEST_F(Program, RefusesFilmsItCannotMake)
                                               "64x64",  "--days", "0,30",    "--duration", ".2"};
     expect_refusal(capture(short_film, {"PATH=/nonexistent"}), {"ffmpeg", "apt-get install ffmpeg"});
 
-    // One that takes a while to give up, in the middle of a picture.
+    // An ffmpeg that fails in the middle of a picture.
     const std::filesystem::path tools = folder_ / "tools", script = tools / "ffmpeg";
     std::filesystem::create_directory(tools);
     std::ofstream(script) << "#!/bin/sh\nhead -c 1000 >/dev/null\necho 'Unknown encoder' >&2\nexit 3\n";
@@ -378,8 +378,8 @@ TEST_F(Program, RefusesFilmsItCannotMake)
         EXPECT_THAT(name, testing::Not(testing::EndsWith(".mp4")));
 }
 
-// As Ctrl-C would, once the film is under way.
-TEST_F(Program, LeavesNothingHalfMadeWhenItIsStopped)
+// The ffmpeg of this test interrupts the program during the film, like Ctrl-C.
+TEST_F(Program, LeavesNoPartialFilesWhenItIsStopped)
 {
     const std::filesystem::path tools = folder_ / "tools", script = tools / "ffmpeg";
     std::filesystem::create_directory(tools);
@@ -395,14 +395,14 @@ TEST_F(Program, LeavesNothingHalfMadeWhenItIsStopped)
         EXPECT_THAT(name, testing::Not(HasSubstr("film")));
 }
 
-TEST_F(Program, SaysSoWithoutAVulkanDevice)
+TEST_F(Program, ReportsAMissingVulkanDevice)
 {
     expect_refusal(
         capture({"--head", head_}, {"VK_ICD_FILENAMES=/nonexistent", "VK_DRIVER_FILES=/nonexistent"}),
         {"Vulkan"});
 }
 
-TEST_F(Program, TakesAHeadWithoutNormalsUvsOrTexturesAndSaysSo)
+TEST_F(Program, AcceptsAHeadWithoutNormalsUvsOrTexturesAndNotesIt)
 {
     const head::Model model = small::head();
     std::string bytes;

@@ -1,5 +1,5 @@
 // Reports: what runs in each case, numbers that must add up, JSON, trace and page, comparisons, sweeps.
-// Nothing here asks how fast a machine is.
+// No test depends on the speed of the machine.
 #include <gmock/gmock.h>
 #include <regex>
 
@@ -57,7 +57,7 @@ json some_facts(bool software = true)
             {"alignment", {{"method", "calibrated"}, {"words", "calibrated timestamps"}, {"error_ms", 0.1}}}};
 }
 
-/// One measurement that all tests look at.
+/// One measurement that all tests share.
 struct Measured
 {
     std::vector<stage::Measurement> measurements;
@@ -97,7 +97,7 @@ using Report = gpu_test::Test;
 
 } // namespace
 
-TEST_F(Report, InEachCaseRunsWhatMoves)
+TEST_F(Report, EachCaseRerunsOnlyThePassesItAffects)
 {
     const auto& summaries = Measured::once().summaries;
     ASSERT_EQ(summaries.size(), 4u);
@@ -111,7 +111,7 @@ TEST_F(Report, InEachCaseRunsWhatMoves)
     EXPECT_EQ(ran_counts(summaries[3]), tissue);
 }
 
-TEST_F(Report, TheCasesMoveThePictureAndLeaveTheStageAsItWas)
+TEST_F(Report, TheCasesChangeThePictureAndRestoreTheStage)
 {
     const scene::Scene scene = small::scene(small::head(), 64);
     stage::Stage stage(gpu_test::device(), stage::Stage::prepare(scene));
@@ -133,7 +133,7 @@ TEST_F(Report, TheCasesMoveThePictureAndLeaveTheStageAsItWas)
     }
 }
 
-TEST_F(Report, WhatMustAddUpAddsUp)
+TEST_F(Report, SharesAndTimesAddUp)
 {
     for (const report_command::CaseSummary& summary : Measured::once().summaries) {
         SCOPED_TRACE(summary.name);
@@ -222,7 +222,7 @@ TEST_F(Report, TheTraceIsInOrderOnBothTracks)
     EXPECT_FALSE(gpu_events.contains("shadow")) << "skipped in all timed frames";
 }
 
-TEST_F(Report, ThePageNeedsNothingButItself)
+TEST_F(Report, ThePageIsSelfContained)
 {
     const Measured& measured = Measured::once();
     const report_command::Comparison self =
@@ -237,7 +237,7 @@ TEST_F(Report, ThePageNeedsNothingButItself)
     EXPECT_THAT(report_command::report_page(some_facts(false), measured.summaries, measured.measurements, {}),
                 Not(HasSubstr("software rasteriser")));
     EXPECT_THAT(page, Not(testing::AnyOf(HasSubstr("nan"), HasSubstr("inf\""))));
-    // Every element that is opened is closed again, in order.
+    // Elements must be properly nested.
     std::vector<std::string> open;
     const std::regex tag("<(/?)([a-z0-9]+)[^>]*?(/?)>");
     for (auto at = std::sregex_iterator(page.begin(), page.end(), tag); at != std::sregex_iterator(); ++at) {
@@ -266,7 +266,7 @@ TEST_F(Report, ComparesWithAnEarlierOne)
         EXPECT_FALSE(time.exceeds_noise) << time.where << time.what;
     }
 
-    // Synthetic samples: certain, whatever this machine is busy with.
+    // Synthetic samples, so that the load of the machine does not matter.
     json before = now, slower = now;
     for (json* report : {&before, &slower})
         for (json& one : report->at("cases")) {
@@ -288,7 +288,7 @@ TEST_F(Report, ComparesWithAnEarlierOne)
     EXPECT_THAT(report_command::to_text(comparison),
                 testing::AllOf(HasSubstr("slower"), HasSubstr("warning: the device")));
 
-    // A run that drifted by itself as much as it differs says nothing.
+    // A difference no larger than the drift within one run is not significant.
     for (json& one : before.at("cases"))
         one.at("samples").at("wall_ms") = {10, 10, 10, 16, 16, 16};
     for (const report_command::ComparedTime& time :
@@ -298,7 +298,7 @@ TEST_F(Report, ComparesWithAnEarlierOne)
         }
 }
 
-TEST_F(Report, RefusesWhatIsNoReport)
+TEST_F(Report, RefusesInvalidReports)
 {
     const TemporaryFolder folder;
     json damaged = Measured::once().record, newer = damaged;
@@ -405,7 +405,7 @@ TEST(ReportCommand, WritesEverythingAndComparesWithItself)
     const json record = report_command::read_report(folder / "out/report.json");
     EXPECT_EQ(record.at("settings").at("size"), "64x48");
     EXPECT_THAT(record.at("scene").dump(), Not(HasSubstr(std::filesystem::path(head).parent_path().string())))
-        << "a report does not tell where files lie";
+        << "a report must not contain the paths of files";
     EXPECT_TRUE(std::filesystem::exists(folder / "out/trace.json"));
     const Outcome second = run_program({"report", "--head", head, "--size", "48x48", "--frames", "5", "--out",
                                         (folder / "again").string(), "--against", out + "/report.json"});

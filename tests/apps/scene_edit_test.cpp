@@ -1,4 +1,4 @@
-// What an editor of scenes needs: picking, camera moves, undo, two settings side by side, saving.
+// Editing of scenes: picking, camera moves, undo, two settings side by side, saving.
 #include <cmath>
 #include <gmock/gmock.h>
 
@@ -17,7 +17,7 @@ namespace {
 using testing::Contains;
 using testing::UnorderedElementsAre;
 
-/// Where a point is seen, -1 to 1 from left to right and from top to bottom.
+/// Position of a point in the picture, -1 to 1 from left to right and from top to bottom.
 glm::dvec2 seen_at(const stage::Stage& stage, const head::Camera& camera, const passes::ViewportTile& canvas,
                    const glm::dvec3& point)
 {
@@ -53,12 +53,12 @@ TEST_F(EditTest, PickingWhereAWoundIsSeenFindsItsCentre)
         ASSERT_TRUE(picked);
         EXPECT_LT(glm::distance(*picked, centre), 1e-5);
         EXPECT_EQ(stage.loaded().wound_near(*picked), i);
-        scene.wounds[i].place = *picked; // and a wound that is put there lies as before
+        scene.wounds[i].place = *picked; // a wound placed there must not move
         stage.update(scene);
         EXPECT_LT(glm::distance(stage.loaded().wounds[i].anchor.centre, centre), 1e-5);
     }
     EXPECT_FALSE(stage.loaded().pick(stage.loaded().camera(), -.99, -.99, canvas.aspect()))
-        << "beside the head";
+        << "outside the head";
     const auto chin = stage.loaded().pick(stage.loaded().camera(), 0, .8, canvas.aspect());
     ASSERT_TRUE(chin);
     EXPECT_FALSE(stage.loaded().wound_near(*chin));
@@ -80,7 +80,7 @@ TEST_F(EditTest, DraggingMovesAWoundWithoutJumps)
     }
 }
 
-TEST(Surface, NearestPointIsOnATriangleAsNearAsAnyOfItsPoints)
+TEST(Surface, NearestPointIsInsideATriangleOrOnItsBorder)
 {
     const head::Model wall = small::wall({.5f, .4f, .3f});
     const auto near = [&](double x, double y, double z) {
@@ -89,17 +89,17 @@ TEST(Surface, NearestPointIsOnATriangleAsNearAsAnyOfItsPoints)
     EXPECT_LT(glm::distance(near(.013, -.037, .02), glm::dvec3(.013, -.037, 0)), 1e-9);
     EXPECT_LT(glm::distance(near(.5, .5, .1), glm::dvec3(.12, .12, 0)), 1e-7) << "a corner";
     EXPECT_LT(glm::distance(near(.013, -.5, -.1), glm::dvec3(.013, -.12, 0)), 1e-7) << "an edge";
-    EXPECT_FALSE(head::first_on_ray(head::Bvh(wall), {0, 0, -1}, {0, 0, 1})) << "seen from behind";
+    EXPECT_FALSE(head::first_on_ray(head::Bvh(wall), {0, 0, -1}, {0, 0, 1})) << "a back face";
 }
 
-TEST(CameraMoves, KeepWhatASceneFileMayHold)
+TEST(CameraMoves, StayWithinTheLimitsOfASceneFile)
 {
     scene::Camera camera;
     camera = demo_command::orbit(camera, 200, 500);
     EXPECT_DOUBLE_EQ(camera.from.azimuth_deg, 218 - 360);
     EXPECT_DOUBLE_EQ(camera.from.elevation_deg, 89);
     EXPECT_DOUBLE_EQ(demo_command::zoom(camera, 2, .8).distance_m, .4);
-    EXPECT_GT(demo_command::zoom(camera, 1e9, .8).distance_m, 0) << "0 would mean: as far as the head needs";
+    EXPECT_GT(demo_command::zoom(camera, 1e9, .8).distance_m, 0) << "0 would mean an automatic distance";
     EXPECT_LE(demo_command::pan(camera, 1e6, 0, .8).target_m[0], 1);
 }
 
@@ -134,16 +134,16 @@ TEST(HistoryTest, ADragIsOneStep)
     EXPECT_EQ(history.undo().exposure_stops, 0);
     EXPECT_EQ(history.undo().wounds[0].roll_deg, 20);
     EXPECT_EQ(history.undo(), scene::Scene{});
-    EXPECT_EQ(history.undo(), scene::Scene{}) << "there is nothing before";
+    EXPECT_EQ(history.undo(), scene::Scene{}) << "there is no earlier state";
     EXPECT_EQ(history.redo().wounds[0].roll_deg, 20);
     scene = history.now();
     scene.tissue = "dark";
     history.edit(scene, "tissue");
-    EXPECT_FALSE(history.can_redo()) << "what was undone is dropped";
+    EXPECT_FALSE(history.can_redo()) << "undone edits are dropped";
     EXPECT_EQ(history.undo().wounds[0].roll_deg, 20);
 }
 
-TEST_F(EditTest, TwoSettingsStandSideBySide)
+TEST_F(EditTest, TwoSettingsAreShownSideBySide)
 {
     const scene::Scene scene = small::scene(small::head());
     scene::Scene other = scene;

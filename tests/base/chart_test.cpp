@@ -1,4 +1,4 @@
-// The chart writer: ticks, places, both canvases.
+// The chart writer: ticks, layout, the SVG canvas and the pixel canvas.
 #include "base/chart.hpp"
 
 #include <gmock/gmock.h>
@@ -21,13 +21,13 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const cv::Rect2d whole(30, 20, 500, 300);
 
-/// Keeps what is drawn.
+/// Records the drawing calls.
 class Recording : public base::Canvas
 {
   public:
     struct Text
     {
-        cv::Rect2d box; // of the capitals
+        cv::Rect2d box; // from the baseline to the height of a capital
         std::string text;
     };
     std::vector<cv::Rect2d> rects;
@@ -95,7 +95,7 @@ double label_extent(const std::string& label)
     return base::text_width(label, 9);
 }
 
-/// 1, 2 or 5 times a power of ten?
+/// Whether `value` is 1, 2 or 5 times a power of ten.
 bool is_round(double value)
 {
     const double mantissa = value / std::pow(10, std::floor(std::log10(value) + 1e-9));
@@ -152,7 +152,7 @@ TEST(Chart, LogarithmicTicksAreRoundToo)
     }
 }
 
-TEST(Chart, ALogarithmicAxisOfLessThanADecadeHasTicksAllTheSame)
+TEST(Chart, ALogarithmicAxisOfLessThanADecadeHasTicks)
 {
     for (const auto& [low, high] : {std::pair(.8, 1.25), {11., 19.}, {210., 480.}, {1.01, 1.02}}) {
         const Scale scale{low, high, true, 0, 700};
@@ -196,7 +196,7 @@ TEST(Chart, ARangeOfNoWidthIsWidened)
     }
 }
 
-// ---- What is drawn, and where
+// ---- Contents and their positions
 
 TEST(Chart, NothingIsDrawnOutside)
 {
@@ -234,7 +234,7 @@ TEST(Chart, NothingIsDrawnOutside)
         std::size_t visible = 0;
         for (const cv::Point2d& p : series.points)
             visible += std::abs(p.x) <= 1 && std::abs(p.y) <= 1;
-        EXPECT_EQ(canvas.centers.size(), 2 * visible + 2); // and in the legend
+        EXPECT_EQ(canvas.centers.size(), 2 * visible + 2); // one more per series in the legend
         EXPECT_TRUE(canvas.has("inside"));
         EXPECT_FALSE(canvas.has("outside"));
     }
@@ -288,7 +288,7 @@ TEST(Chart, NamesDoNotOverlap)
     }
 }
 
-TEST(Chart, ANameRatherLiesWhereNoLineIs)
+TEST(Chart, ANameAvoidsLinesWhereItCan)
 {
     base::LabelPlacement placement({0, 0, 100, 100});
     placement.rather_not_cover({{0, 15}, {100, 15}});
@@ -318,7 +318,7 @@ TEST(Chart, TheLegendHidesNoData)
     }
 }
 
-TEST(Chart, WhatHasNoPlaceIsLeftOut)
+TEST(Chart, PointsWithoutAPositionAreLeftOut)
 {
     Chart chart{.x = {.logarithmic = true}, .y = {.logarithmic = true}};
     chart.series = {
@@ -330,17 +330,17 @@ TEST(Chart, WhatHasNoPlaceIsLeftOut)
          .y_spread = {{.5, 2}, {1, 2}, {not_a_number, 1}, {1, 2}, {1, 2}, {0, 20}, {5, 20}}}};
     chart.references = {{.at = not_a_number, .name = "nowhere"}, {.at = -1}};
     const Recording canvas = drawn(chart);
-    EXPECT_EQ(canvas.centers.size(), 3u + 1); // and the legend's
+    EXPECT_EQ(canvas.centers.size(), 3u + 1); // + 1 in the legend
     EXPECT_FALSE(canvas.has("nowhere"));
     const std::string svg = base::chart_svg(chart, {400, 300}, base::SvgUse::StandAlone);
     EXPECT_THAT(svg, Not(HasSubstr("nan")));
     EXPECT_THAT(svg, Not(HasSubstr("inf")));
     EXPECT_FALSE(base::chart_picture(chart, {400, 300}).empty());
-    EXPECT_FALSE(base::chart_picture({}, {400, 300}).empty()) << "nothing at all";
-    EXPECT_FALSE(base::chart_picture(chart, {20, 10}).empty()) << "no room at all";
+    EXPECT_FALSE(base::chart_picture({}, {400, 300}).empty()) << "an empty chart";
+    EXPECT_FALSE(base::chart_picture(chart, {20, 10}).empty()) << "a picture with no room for a plot";
 }
 
-TEST(Chart, APointWithoutAPlaceInterruptsTheLine)
+TEST(Chart, ANonFinitePointInterruptsTheLine)
 {
     Chart chart;
     chart.series = {
@@ -348,7 +348,7 @@ TEST(Chart, APointWithoutAPlaceInterruptsTheLine)
     std::vector<std::size_t> lengths;
     for (const auto& polyline : drawn(chart).polylines)
         if (polyline.front().x != polyline.back().x &&
-            polyline.front().y != polyline.back().y) // no grid line
+            polyline.front().y != polyline.back().y) // not a grid line
             lengths.push_back(polyline.size());
     EXPECT_THAT(lengths, testing::ElementsAre(2, 3));
 }
@@ -392,8 +392,8 @@ TEST(Chart, APlotHasTheHeightThatWasAskedFor)
 
 // ---- Both canvases
 
-/// Empty when every element that is opened is closed in order, and every attribute is quoted.
-std::string fault_of(const std::string& xml)
+/// The first XML error found; empty when elements are nested properly and attributes are quoted.
+std::string xml_error(const std::string& xml)
 {
     static const std::regex element(R"(<(/?)([a-z]+)((?: [a-zA-Z-]+="[^"<&]*(?:&[a-z]+;[^"<&]*)*")*)(/?)>)");
     std::vector<std::string> open;
@@ -441,18 +441,18 @@ Chart everything()
 
 TEST(Chart, SvgIsWellFormed)
 {
-    ASSERT_EQ(fault_of("<a b=\"c\"><d/>&amp;</a>\n"), "");
+    ASSERT_EQ(xml_error("<a b=\"c\"><d/>&amp;</a>\n"), "");
     for (const char* broken : {"<a>\n", "<a></b>\n", "<a b=c/>\n", "<a>&</a>\n", "<a><</a>\n", "<a/><a/>\n"})
-        ASSERT_NE(fault_of(broken), "") << broken;
+        ASSERT_NE(xml_error(broken), "") << broken;
     const std::string file = base::chart_svg(everything(), {600, 400}, base::SvgUse::StandAlone);
     const std::string element = base::chart_svg(everything(), {600, 400}, base::SvgUse::InPage);
-    EXPECT_EQ(fault_of(file), "");
-    EXPECT_EQ(fault_of(element), "");
+    EXPECT_EQ(xml_error(file), "");
+    EXPECT_EQ(xml_error(element), "");
     EXPECT_THAT(file, testing::AllOf(testing::StartsWith("<svg xmlns="),
                                      HasSubstr("&lt;b a=&quot;1&quot;&gt;&amp;"), Not(HasSubstr("var("))));
 }
 
-TEST(Chart, APagesColoursAreVariablesThatItDefines)
+TEST(Chart, ColoursInAPageAreDefinedCssVariables)
 {
     const std::string element = base::chart_svg(everything(), {600, 400}, base::SvgUse::InPage);
     const std::string style = base::css_variables();
@@ -490,7 +490,7 @@ TEST(Chart, PngAndSvgPlaceAPointAtTheSamePixel)
         }
 }
 
-TEST(Chart, APictureShowsThroughWhatIsTransparent)
+TEST(Chart, TransparentPaintIsBlendedWithThePicture)
 {
     cv::Mat3b picture(40, 40, cv::Vec3b(255, 255, 255));
     base::PictureCanvas canvas(picture);

@@ -61,7 +61,7 @@ TEST(Color, DeltaE2000MatchesSharmasTable)
     }
 }
 
-TEST(Color, SrgbIsContinuousAndItsOwnInverse)
+TEST(Color, SrgbIsContinuousAndInvertible)
 {
     EXPECT_EQ(base::srgb_from_linear(0), 0);
     EXPECT_NEAR(base::srgb_from_linear(1), 1, 1e-15);
@@ -75,7 +75,7 @@ TEST(Color, SrgbIsContinuousAndItsOwnInverse)
     }
 }
 
-TEST(Color, EightBitEncodingClampsWhatIsOutside)
+TEST(Color, EightBitEncodingClamps)
 {
     EXPECT_EQ(base::srgb8_from_linear({-1, 2, 1e300}), cv::Vec3b(0, 255, 255));
     EXPECT_EQ(base::srgb8_from_linear({NAN, INFINITY, -INFINITY}), cv::Vec3b(0, 255, 0));

@@ -1,4 +1,4 @@
-// Files written whole or not at all, on a disk that is full at any moment.
+// A file is written whole or not at all, at whatever byte the disk becomes full.
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -19,8 +19,8 @@ std::string content(const std::filesystem::path& path)
     return {bytes.begin(), bytes.end()};
 }
 
-/// `write(path)` on a disk with room for `bytes` must fail, name the file that the user knows, and leave the
-/// old file and nothing else.
+/// Checks that `write(path)` on a disk with room for `bytes` fails, that the message names `path`, not the
+/// temporary file, and that only the old file is left.
 template <typename Write>
 void expect_old_file_kept(const char* name, rlim_t bytes, Write write)
 {
@@ -40,7 +40,7 @@ void expect_old_file_kept(const char* name, rlim_t bytes, Write write)
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << name;
 }
 
-TEST(FileOnAFullDisk, IsAsItWasWhateverWasWritten)
+TEST(FileOnAFullDisk, KeepsItsOldContent)
 {
     const cv::Mat3b noise(64, 64);
     cv::randu(noise, 0, 255);

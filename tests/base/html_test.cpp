@@ -1,4 +1,4 @@
-// What is put into HTML and SVG.
+// Escaping of text for HTML and SVG.
 #include "base/html.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ TEST(Html, Utf8StaysAsItIs)
     EXPECT_EQ(escaped(text), text);
 }
 
-TEST(Html, WhatXmlForbidsIsReplaced)
+TEST(Html, CharactersThatXmlForbidsAreReplaced)
 {
     const std::string bad = "\xef\xbf\xbd"; // U+FFFD
     EXPECT_EQ(escaped("a\x01z"), "a" + bad + "z");

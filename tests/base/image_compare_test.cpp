@@ -85,20 +85,20 @@ TEST(ImageCompare, EachChannelCounts)
     }
 }
 
-TEST(ImageCompare, OtherSizeAndNoPictureFail)
+TEST(ImageCompare, AnotherSizeAndEmptyPicturesFail)
 {
     EXPECT_FALSE(compare_images(cv::Mat3b(100, 99), picture()).equal);
     EXPECT_FALSE(compare_images(cv::Mat3b(), cv::Mat3b()).equal);
 }
 
-TEST(ImageCompare, BoundsAreTheCallers)
+TEST(ImageCompare, TheCallerSetsTheBounds)
 {
     EXPECT_FALSE(compare_images(changed(1, 1), picture(), {.usual = 0, .exceptions = 0, .hard = 0}).equal);
     EXPECT_TRUE(
         compare_images(changed(5'000, 60), picture(), {.usual = 3, .exceptions = 0.5, .hard = 60}).equal);
 }
 
-TEST(ImageCompare, NonFinitePixelIsFoundWhereItIs)
+TEST(ImageCompare, TheFirstNonFinitePixelIsFound)
 {
     cv::Mat4f linear(8, 8, cv::Vec4f::all(1));
     EXPECT_FALSE(base::first_non_finite(linear));

@@ -1,4 +1,4 @@
-// Pictures in and out of files.
+// Reading and writing of pictures.
 #include "base/file.hpp"
 #include "base/image_io.hpp"
 
@@ -31,7 +31,7 @@ cv::Mat3b noise(int rows, int columns)
     return picture;
 }
 
-/// The refusal's text, "" where the file was accepted.
+/// The message of the InputError, "" when there is none.
 template <typename Read>
 std::string refusal(Read&& read)
 {
@@ -78,8 +78,8 @@ TEST_F(PictureFile, GrayAndSixteenBitPicturesAreRead)
 
 TEST_F(PictureFile, JpegIsTurnedUprightByItsExifOrientation)
 {
-    // Left half white, right half black; orientation 6: to be shown turned a quarter clockwise, so white is
-    // on top.
+    // Left half white, right half black. Orientation 6 turns the picture 90 degrees clockwise, so that the
+    // white half is on top.
     cv::Mat3b picture(16, 32, cv::Vec3b(0, 0, 0));
     picture(cv::Rect(0, 0, 16, 16)).setTo(cv::Scalar(255, 255, 255));
     std::string jpeg = encoded(".jpg", picture);
@@ -146,7 +146,7 @@ TEST_F(PictureFile, EveryTruncationIsRefused)
     }
 }
 
-TEST_F(PictureFile, JpegWithMoreBehindItsEndIsRead)
+TEST_F(PictureFile, JpegWithDataAfterItsEndIsRead)
 {
     const auto path =
         folder_.with("a.jpg", encoded(".jpg", noise(24, 24)) + "a film, as telephones append it");

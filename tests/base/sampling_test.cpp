@@ -5,7 +5,7 @@
 
 namespace {
 
-/// 4 x 2 texels; the second channel is the first one's negative.
+/// 4 x 2 texels; the second channel is the negative of the first.
 cv::Mat2f ramp()
 {
     cv::Mat2f image(2, 4);
@@ -24,7 +24,7 @@ double at(double u, double v)
 
 } // namespace
 
-TEST(Sampling, IsTheTexelAtItsCentreAndLinearBetween)
+TEST(Sampling, ReturnsTexelsAtTheirCentresAndIsLinearBetween)
 {
     EXPECT_DOUBLE_EQ(at(.125, .25), 0);
     EXPECT_DOUBLE_EQ(at(.875, .75), 13);
@@ -32,14 +32,14 @@ TEST(Sampling, IsTheTexelAtItsCentreAndLinearBetween)
     EXPECT_DOUBLE_EQ(at(.5, .5), 6.5);
 }
 
-TEST(Sampling, GoesOnWithTheEdgeBeyondIt)
+TEST(Sampling, ClampsToTheEdge)
 {
     EXPECT_DOUBLE_EQ(at(-3, -1e30), 0);
     EXPECT_DOUBLE_EQ(at(1, 1), 13);
     EXPECT_DOUBLE_EQ(at(1e30, .25), 3);
 }
 
-TEST(Sampling, EveryLevelHoldsTheMeanAndTheLastOneTexel)
+TEST(Sampling, EveryLevelHasTheSameMeanAndTheLastIsOneTexel)
 {
     const std::vector<cv::Mat> levels = base::mip_levels(ramp());
     ASSERT_EQ(levels.size(), 3u);
@@ -49,13 +49,13 @@ TEST(Sampling, EveryLevelHoldsTheMeanAndTheLastOneTexel)
         EXPECT_NEAR(cv::mean(level)[0], 6.5, 1e-6);
 }
 
-TEST(Sampling, GoesFromLevelToLevelAndStopsAtTheLast)
+TEST(Sampling, InterpolatesBetweenLevelsAndClampsToTheLast)
 {
     const std::vector<cv::Mat> levels = base::mip_levels(ramp());
     const auto at_lod = [&](double lod) { return base::sample<2>(levels, {.125, .25}, lod)[0]; };
     EXPECT_DOUBLE_EQ(at_lod(-1), 0);
     EXPECT_DOUBLE_EQ(at_lod(0), 0);
     EXPECT_DOUBLE_EQ(at_lod(.5), 2.75);
-    EXPECT_DOUBLE_EQ(at_lod(1), 5.5); // of 0, 1, 10, 11
+    EXPECT_DOUBLE_EQ(at_lod(1), 5.5); // mean of 0, 1, 10, 11
     EXPECT_DOUBLE_EQ(at_lod(99), 6.5);
 }

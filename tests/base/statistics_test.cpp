@@ -1,4 +1,4 @@
-// Numbers about samples: known answers, and how often a comparison cries wolf.
+// Statistics of samples: known answers, and how often a comparison gives a false alarm.
 #include "base/statistics.hpp"
 
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace {
 
-/// Frame times of a machine with a temper: neighbours resemble each other, some frames are much slower.
+/// Frame times like those of a real machine: neighbours are correlated, 5 % of the frames take twice as long.
 std::vector<double> frame_times(std::uint64_t seed, double middle, std::size_t count = 60)
 {
     std::mt19937_64 random(seed);
@@ -35,7 +35,7 @@ TEST(Statistics, QuantilesAreLinearBetweenSamples)
     EXPECT_FALSE(base::spread_of({}));
 }
 
-TEST(Statistics, TheSameMachineTwiceIsSeldomCalledDifferent)
+TEST(Statistics, EqualDistributionsAreSeldomCalledDifferent)
 {
     int missed = 0;
     constexpr int trials = 80;
@@ -46,7 +46,7 @@ TEST(Statistics, TheSameMachineTwiceIsSeldomCalledDifferent)
         EXPECT_GE(interval.high, interval.ratio);
         missed += interval.low > 1 || interval.high < 1;
     }
-    EXPECT_LE(missed, trials / 8) << "of a promised twentieth";
+    EXPECT_LE(missed, trials / 8) << "the interval should miss 1 in 20";
 }
 
 TEST(Statistics, ADifferenceLargerThanTheNoiseIsSeen)
@@ -78,21 +78,22 @@ TEST(Statistics, PowerLawsAreRecovered)
     EXPECT_NEAR(law.standard_error, 0, 1e-9);
     EXPECT_NEAR(law.at(32), 3 * std::pow(32, 1.7), 1e-7);
 
-    // By hand: ln y = 0, 1, 1 at ln x = 0, 1, 2 has slope 1/2; residuals -1/6, 1/3, -1/6, so s = sqrt(1/6 /
-    // 2).
+    // By hand: ln y = 0, 1, 1 at ln x = 0, 1, 2 has slope 1/2 and residuals -1/6, 1/3, -1/6, so
+    // s = sqrt(1/6 / 2).
     const double e = std::exp(1);
     const auto rough = base::fit_power_law(std::vector{1., e, e * e}, std::vector{1., e, e}).value();
     EXPECT_NEAR(rough.exponent, 0.5, 1e-12);
     EXPECT_NEAR(rough.standard_error, std::sqrt(1. / 12), 1e-12);
 
     EXPECT_EQ(base::fit_power_law(std::vector{0., 1., 2., 4.}, std::vector{9., 1., 2., 4.})->points, 3u)
-        << "zero wounds have no logarithm";
+        << "x = 0 has no logarithm";
     EXPECT_FALSE(base::fit_power_law(std::vector{1., 1., 2.}, std::vector{1., 1., 2.}));
 }
 
 TEST(Statistics, NonDominatedPointsAreThoseThatNoOtherBeats)
 {
     const std::vector<double> cost{5, 1, 3, 2, 3, 9, 1}, error{1, 8, 2, 9, 2, 1, 8};
-    EXPECT_EQ(base::non_dominated(cost, error), (std::vector<std::size_t>{1, 2, 0})); // equal ones once
+    EXPECT_EQ(base::non_dominated(cost, error),
+              (std::vector<std::size_t>{1, 2, 0})); // equal points once only
     EXPECT_TRUE(base::non_dominated({}, {}).empty());
 }

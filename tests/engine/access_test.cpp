@@ -47,7 +47,7 @@ TEST(Barriers, ReadAfterWriteFlushesTheWriteForTheReader)
                                         .new_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}));
 }
 
-TEST(Barriers, ASecondReadOfTheSameKindNeedsNone)
+TEST(Barriers, ASecondReadOfTheSameKindNeedsNoBarrier)
 {
     graph::AccessState state;
     graph::advance(state, graph::Usage::Color);
@@ -103,7 +103,7 @@ TEST(Barriers, AChangeOfLayoutBetweenReadersWaitsForTheReaders)
     EXPECT_EQ(barrier->src_stages, raster);
     EXPECT_EQ(barrier->src_access, 0u);
     EXPECT_EQ(barrier->new_layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-    // and back again
+    // back to a sampled layout
     const auto back = graph::advance(state, graph::Usage::SampledInCompute);
     ASSERT_TRUE(back);
     EXPECT_EQ(back->src_stages, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT);

@@ -1,4 +1,4 @@
-// Which device is taken, what is said when none is, and that the harness hears the validation layer.
+// Choice of the device, the message when none is suitable, and that validation messages fail a test.
 #include "base/input_error.hpp"
 #include "engine/gpu/device.hpp"
 #include "engine/gpu/memory.hpp"
@@ -84,7 +84,7 @@ TEST_F(DeviceTest, DescribesEveryDevice)
     EXPECT_THAT(gpu_test::device().info().driver, Not(IsEmpty()));
 }
 
-TEST_F(DeviceTest, WhatAWindowWishesCountsAmongWhatADeviceLacks)
+TEST_F(DeviceTest, MissingRequirementsOfAWindowAreListed)
 {
     const auto missing = [](const gpu::DeviceWishes& wishes) {
         return gpu::enumerate_devices(gpu_test::device().instance(), wishes).front().info.missing;
@@ -95,12 +95,12 @@ TEST_F(DeviceTest, WhatAWindowWishesCountsAmongWhatADeviceLacks)
                 testing::ElementsAre("drawing to this display's windows"));
 }
 
-TEST_F(DeviceTest, AnUnknownDeviceIsTheUsersMistake)
+TEST_F(DeviceTest, AnUnknownDeviceIsAnInputError)
 {
     EXPECT_THROW(gpu::Device({.device = "no such device"}), InputError);
 }
 
-TEST_F(DeviceTest, AnImageBeyondTheDevicesLimitIsTheUsersMistake)
+TEST_F(DeviceTest, AnImageBeyondTheDevicesLimitIsAnInputError)
 {
     EXPECT_THROW(gpu::Image(gpu_test::device(), {1u << 20, 16, VK_FORMAT_R8G8B8A8_UNORM}, 1,
                             VK_IMAGE_USAGE_SAMPLED_BIT, "huge"),
@@ -113,7 +113,7 @@ TEST_F(DeviceTest, SeveralDevicesLiveSideBySide)
     EXPECT_EQ(second.info().name, gpu_test::device().info().name);
 }
 
-/// Writes a buffer twice in a row with nothing between: only synchronisation validation can see it.
+/// Writes a buffer twice with no barrier between; only synchronisation validation can detect that.
 void write_twice_without_a_barrier()
 {
     const gpu::Buffer buffer(gpu_test::device(), 64, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::HostAccess::None,
@@ -124,7 +124,7 @@ void write_twice_without_a_barrier()
     });
 }
 
-TEST_F(DeviceTest, AMissingBarrierIsHeard)
+TEST_F(DeviceTest, AMissingBarrierIsReported)
 {
     write_twice_without_a_barrier();
     EXPECT_THAT(gpu_test::device().validation_messages(), SizeIs(1));

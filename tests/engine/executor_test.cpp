@@ -1,4 +1,4 @@
-// Frames on a device: what comes out, what is skipped, how long it took. Every test runs under validation.
+// Frames on a device: results, skipped passes, timings. Every test runs with validation on.
 #include "base/input_error.hpp"
 #include "engine/gpu/executor.hpp"
 #include "tests/support/gpu.hpp"
@@ -45,7 +45,7 @@ graph::ImageId add_show(graph::Graph& graph, graph::ImageId source, glm::vec4 ti
     return shown;
 }
 
-/// "fill ran: first run", in order of execution.
+/// One text per pass such as "fill ran: first run", in order of execution.
 std::vector<std::string> states(const gpu::FrameResult& result)
 {
     std::vector<std::string> list;
@@ -56,7 +56,7 @@ std::vector<std::string> states(const gpu::FrameResult& result)
 
 using ExecutorTest = gpu_test::Test;
 
-TEST_F(ExecutorTest, ComputeReachesEveryTexelAndIsReadBackRowTight)
+TEST_F(ExecutorTest, ComputeWritesEveryTexelAndReadbackRowsArePacked)
 {
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
     graph::Graph graph;
@@ -95,7 +95,7 @@ TEST_F(ExecutorTest, AnUnchangedFrameRunsNothingAndStillReadsBackTheSame)
     EXPECT_EQ(first.readbacks[0].bytes, second.readbacks[0].bytes);
 }
 
-TEST_F(ExecutorTest, WhatWasForgottenRunsAgain)
+TEST_F(ExecutorTest, AfterForgetEveryPassRunsAgain)
 {
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
     graph::Graph graph;
@@ -105,7 +105,7 @@ TEST_F(ExecutorTest, WhatWasForgottenRunsAgain)
     EXPECT_THAT(states(executor.run(graph)), ElementsAre("fill ran: first run"));
 }
 
-TEST_F(ExecutorTest, KnowsBeforehandWhetherAFrameWouldRunAnything)
+TEST_F(ExecutorTest, UpToDateTellsWhetherAFrameWouldRunAPass)
 {
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
     const auto frame = [](float step) {
@@ -122,7 +122,7 @@ TEST_F(ExecutorTest, KnowsBeforehandWhetherAFrameWouldRunAnything)
     EXPECT_FALSE(executor.up_to_date(always));
 }
 
-TEST_F(ExecutorTest, PrefixesTellTwoDeclarationsOfOneRecipeApart)
+TEST_F(ExecutorTest, APrefixDistinguishesTwoCopiesOfTheSamePass)
 {
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
     graph::Graph graph;
@@ -135,7 +135,7 @@ TEST_F(ExecutorTest, PrefixesTellTwoDeclarationsOfOneRecipeApart)
     EXPECT_EQ(result.mat(other).at<cv::Vec4f>(0, 1)[0], 2.25f);
 }
 
-TEST_F(ExecutorTest, KeepsWhatAFrameReadsUntilItIsFinished)
+TEST_F(ExecutorTest, KeepsDataAliveUntilTheFrameIsFinished)
 {
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
     auto used = std::make_shared<int>(0);
@@ -152,7 +152,7 @@ TEST_F(ExecutorTest, KeepsWhatAFrameReadsUntilItIsFinished)
     EXPECT_TRUE(alive.expired());
 }
 
-TEST_F(ExecutorTest, AChangedUniformRerunsItsPassAndWhatFollows)
+TEST_F(ExecutorTest, AChangedUniformRerunsItsPassAndItsReaders)
 {
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
     const auto frame = [&](float step, float tint) {
@@ -203,11 +203,11 @@ TEST_F(ExecutorTest, ConstantsAndBuffersReachTheShader)
     EXPECT_EQ(first_texel(1.0f, {}), cv::Vec4f(0.25f, 0.5f, 0.75f, 1.0f))
         << "an empty buffer is one element of zeros";
     EXPECT_EQ(first_texel(2.0f, {{1, 2}, {3, 5}}), cv::Vec4f(0.5f + 4.0f, 1.0f + 7.0f, 1.5f, 1.0f));
-    // More than one block of the upload arena; llvmpipe leaves every loop after 65535 turns.
+    // Larger than a block of the upload arena; llvmpipe ends every loop after 65535 iterations.
     EXPECT_EQ(first_texel(1.0f, std::vector<glm::vec2>(50000, {1, 0}))[0], 50000.25f);
 }
 
-TEST_F(ExecutorTest, AResizedImageIsMadeAnew)
+TEST_F(ExecutorTest, AResizedImageIsRecreated)
 {
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
     for (const std::uint32_t width : {33u, 7u, 64u}) {
@@ -226,9 +226,8 @@ TEST_F(ExecutorTest, AResizedImageIsMadeAnew)
 }
 
 // ---- Time, frames in flight, mistakes
-// ----------------------------------------------------------------------------
 
-TEST_F(ExecutorTest, TimesEveryPassThatRanAndAComputePassNotAsNothing)
+TEST_F(ExecutorTest, TimesEveryPassThatRanIncludingComputePasses)
 {
     ASSERT_TRUE(gpu_test::device().info().timestamps);
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
@@ -238,8 +237,8 @@ TEST_F(ExecutorTest, TimesEveryPassThatRanAndAComputePassNotAsNothing)
         graph.readback("shown", add_show(graph, add_fill(graph, {.color = glm::vec3(color)}, work)));
         return executor.run(graph);
     };
-    frame(
-        0); // once a render pass has run, llvmpipe's timestamps before a dispatch need a barrier behind them
+    // Once a render pass has run, llvmpipe's timestamps before a dispatch need a barrier after them.
+    frame(0);
     const gpu::FrameResult result = frame(1);
     const double compute = result.pass("fill").gpu_ms.value(), raster = result.pass("show").gpu_ms.value();
     EXPECT_GT(compute, 0.1 * result.frame_ms) << "nearly all the frame's work";
@@ -251,7 +250,7 @@ TEST_F(ExecutorTest, TimesEveryPassThatRanAndAComputePassNotAsNothing)
     EXPECT_FALSE(still.pass("fill").gpu_ms) << "a skipped pass has no time";
 }
 
-TEST_F(ExecutorTest, LaysCpuAndGpuOnOneLine)
+TEST_F(ExecutorTest, PutsCpuAndGpuOnOneTimeline)
 {
     for (const bool align : {false, true}) {
         gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
@@ -267,7 +266,7 @@ TEST_F(ExecutorTest, LaysCpuAndGpuOnOneLine)
             const gpu::HostTimes& host = result.host;
             const double recorded = host.schedule_ms + host.record_ms;
             EXPECT_NEAR(recorded + host.submit_ms + host.wait_ms + host.readback_ms, result.frame_ms, 1e-6);
-            // What runs one after the other lies one after the other, from the submission to the fence.
+            // Successive passes do not overlap on the CPU or on the GPU, from submission to the fence.
             double gpu = recorded, cpu = host.schedule_ms;
             for (const gpu::PassResult& pass : result.passes) {
                 EXPECT_GE(pass.cpu_begin_ms, cpu) << pass.name;
@@ -373,7 +372,7 @@ TEST_F(ExecutorTest, ThePresentedImageCanBeCopiedAfterTheFrame)
     EXPECT_THAT(states(executor.run(graph)), ElementsAre("fill skipped: unchanged"));
 }
 
-TEST_F(ExecutorTest, AWrongDeclarationNamesAllMistakesAndHarmsNothing)
+TEST_F(ExecutorTest, AWrongDeclarationNamesAllMistakesAndTheExecutorStaysUsable)
 {
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
     graph::Graph good;
@@ -395,7 +394,7 @@ TEST_F(ExecutorTest, AWrongDeclarationNamesAllMistakesAndHarmsNothing)
     EXPECT_THAT(states(executor.run(good)), ElementsAre("fill skipped: unchanged"));
 }
 
-TEST_F(ExecutorTest, AnImageTooLargeForTheDeviceIsTheUsersMistakeAndHarmsNothing)
+TEST_F(ExecutorTest, AnImageTooLargeForTheDeviceIsAnInputErrorAndTheExecutorStaysUsable)
 {
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
     const auto frame = [&](std::uint32_t width) {
@@ -414,7 +413,7 @@ TEST_F(ExecutorTest, AnImageTooLargeForTheDeviceIsTheUsersMistakeAndHarmsNothing
     EXPECT_EQ(frame(8), 0.25f);
 }
 
-TEST_F(ExecutorTest, AFrameThatNeedsNothingIsNoError)
+TEST_F(ExecutorTest, AFrameWithoutOutputsIsNoError)
 {
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
     EXPECT_TRUE(executor.run(graph::Graph{}).passes.empty());

@@ -21,8 +21,6 @@ std::string mistakes(const graph::Graph& graph)
     return "none";
 }
 
-// ----------------------------------------------------------------------------------------------------
-
 TEST(GraphCheck, NamesEveryMistakeAtOnce)
 {
     graph::Graph graph;

@@ -1,4 +1,4 @@
-// Keys that come within one frame of a slow device.
+// Several keys pressed within one frame of a slow device.
 #include <GLFW/glfw3.h>
 #include <gmock/gmock.h>
 #include <string>
@@ -23,8 +23,8 @@ void type(window::Keyboard& keyboard, const std::string& text)
         press(keyboard, c, char32_t(c));
 }
 
-/// What an interface that looks once a frame makes of it: text, <key> for a key found down that was up
-/// before, a | wherever such a key can first have had its effect, and ^ before a key with shift.
+/// What an interface that polls once per frame sees: text, ! for text with control down, <key> for a key that
+/// was up in the frame before and is down now, and ^ before a key with shift.
 std::string seen(window::Keyboard& keyboard, bool text_wanted = true)
 {
     std::string text;
@@ -45,7 +45,7 @@ std::string seen(window::Keyboard& keyboard, bool text_wanted = true)
 
 } // namespace
 
-TEST(Keyboard, TellsAWordInOneFrame)
+TEST(Keyboard, DeliversAWordInOneFrame)
 {
     window::Keyboard keyboard;
     type(keyboard, "word");
@@ -54,7 +54,7 @@ TEST(Keyboard, TellsAWordInOneFrame)
     EXPECT_TRUE(keyboard.empty());
 }
 
-TEST(Keyboard, KeepsTextAndKeysThatWriteNothingInOrder)
+TEST(Keyboard, KeepsTextAndOtherKeysInOrder)
 {
     window::Keyboard keyboard;
     type(keyboard, "96");
@@ -67,7 +67,7 @@ TEST(Keyboard, KeepsTextAndKeysThatWriteNothingInOrder)
     EXPECT_EQ(seen(keyboard), "96<258>64<258><258><32> <257>");
 }
 
-TEST(Keyboard, GivesAKeyThatWritesNothingTheNextFrameToItself)
+TEST(Keyboard, TextAfterAKeyWithoutTextWaitsUntilThatKeyIsUp)
 {
     window::Keyboard keyboard;
     press(keyboard, GLFW_KEY_TAB);
@@ -95,7 +95,7 @@ TEST(Keyboard, KeepsShiftWithItsKey)
     EXPECT_EQ(seen(keyboard), "a^<258>Bc<258>");
 }
 
-TEST(Keyboard, DoesNotLayControlOverTextBeforeIt)
+TEST(Keyboard, DoesNotApplyControlToTextBeforeIt)
 {
     window::Keyboard keyboard;
     type(keyboard, "ab");
@@ -107,7 +107,7 @@ TEST(Keyboard, DoesNotLayControlOverTextBeforeIt)
 }
 
 // A letter that opens a dialog must not be written into it.
-TEST(Keyboard, WritesNothingWhereNoTextIsWanted)
+TEST(Keyboard, DropsTextWhereNoneIsWanted)
 {
     window::Keyboard keyboard;
     type(keyboard, "h");
@@ -118,7 +118,7 @@ TEST(Keyboard, WritesNothingWhereNoTextIsWanted)
     EXPECT_TRUE(keyboard.empty());
 }
 
-TEST(Keyboard, TellsAHeldKeysRepeatsAtOnce)
+TEST(Keyboard, DeliversTheRepeatsOfAHeldKeyAtOnce)
 {
     window::Keyboard keyboard;
     keyboard.add({.kind = Down, .key = GLFW_KEY_RIGHT, .press = {.key = GLFW_KEY_RIGHT}});

@@ -1,4 +1,4 @@
-// The schedule as people read it. No device.
+// The schedule as text and as a Graphviz graph. No device.
 #include "engine/graph/plan_text.hpp"
 
 #include <gmock/gmock.h>

@@ -11,8 +11,6 @@
 
 namespace {
 
-// --------------------------------------------------------------------------------
-
 struct Vertex
 {
     glm::vec3 position, normal;
@@ -33,7 +31,7 @@ gpu::MeshBuffer mesh_of(const std::vector<Vertex>& vertices, const std::string& 
             std::vector<std::uint32_t>{0, 1, 2}, name};
 }
 
-/// A triangle over the lower left half of the picture, counter-clockwise as one sees it.
+/// A triangle over the lower left half of the picture, counter-clockwise on the screen.
 gpu::MeshBuffer lower_left_triangle()
 {
     std::vector<Vertex> vertices(3);

@@ -11,7 +11,7 @@ using testing::ElementsAre;
 constexpr graph::ImageDesc target{64, 32, VK_FORMAT_R16G16B16A16_SFLOAT};
 constexpr graph::ImageDesc depth_target{64, 32, VK_FORMAT_D32_SFLOAT};
 
-/// What runs: "warp ran: first run | lut culled: unused: nothing samples lut"
+/// The state of every pass: "warp ran: first run | lut culled: unused: nothing samples lut"
 std::string trace(const graph::Plan& plan)
 {
     std::string text;
@@ -59,7 +59,7 @@ graph::ImageId add_raster(graph::Graph& graph, const std::string& name,
     return output;
 }
 
-/// warp -> forward (every frame) -> tonemap -> readback, as the renderer has it.
+/// warp -> forward (every frame) -> tonemap -> readback, as in the renderer.
 struct Face
 {
     explicit Face(float day, float light = 1)
@@ -73,7 +73,6 @@ struct Face
 };
 
 // ---- Order and culling
-// -------------------------------------------------------------------------------------------
 
 TEST(Schedule, KeepsTheDeclaredOrderWherePossibleAndPutsWritersFirst)
 {
@@ -115,7 +114,6 @@ TEST(Schedule, APresentedImageIsAnOutput)
 }
 
 // ---- Skipping
-// ----------------------------------------------------------------------------------------------------
 
 TEST(Schedule, AnUnchangedFrameRunsOnlyWhatMustRunEachFrameAndWhatSamplesIt)
 {
@@ -126,7 +124,7 @@ TEST(Schedule, AnUnchangedFrameRunsOnlyWhatMustRunEachFrameAndWhatSamplesIt)
               "warp skipped: unchanged | forward ran: every frame | tonemap ran: changed: input forward_out");
 }
 
-TEST(Schedule, AChangedUniformRerunsItsPassAndWhatFollows)
+TEST(Schedule, AChangedUniformRerunsItsPassAndItsReaders)
 {
     graph::Memory memory;
     const auto build = [](float first, float second) {
@@ -144,7 +142,7 @@ TEST(Schedule, AChangedUniformRerunsItsPassAndWhatFollows)
     EXPECT_EQ(trace(plan), "a skipped: unchanged | b skipped: unchanged | c skipped: unchanged");
 }
 
-TEST(Schedule, AChangedLightRerunsOnlyWhatSeesIt)
+TEST(Schedule, AChangedLightRerunsOnlyPassesThatUseIt)
 {
     const graph::Plan first = graph::schedule(Face(3, 1).graph, {});
     const graph::Plan second = graph::schedule(Face(3, 2).graph, first.memory);
@@ -205,7 +203,7 @@ TEST(Schedule, EverythingAPassDeclaresIsInItsKey)
         EXPECT_EQ(trace(graph::schedule(build(&c), memory)), std::string("pass ran: ") + c.reason);
 }
 
-TEST(Schedule, ReplacingAnImportedTextureRerunsWhoSamplesIt)
+TEST(Schedule, ReplacingAnImportedTextureRerunsItsReaders)
 {
     const auto build = [](std::uint64_t content) {
         graph::Graph graph;
@@ -218,7 +216,7 @@ TEST(Schedule, ReplacingAnImportedTextureRerunsWhoSamplesIt)
     EXPECT_EQ(trace(graph::schedule(build(2), memory)), "a ran: changed: input albedo");
 }
 
-TEST(Schedule, AResizedImageIsWrittenAnew)
+TEST(Schedule, AResizedImageIsWrittenAgain)
 {
     const auto build = [](std::uint32_t width) {
         graph::Graph graph;
@@ -233,10 +231,10 @@ TEST(Schedule, AResizedImageIsWrittenAnew)
     const graph::Plan second = graph::schedule(build(65), first.memory);
     EXPECT_EQ(trace(second), "a ran: changed: size of out");
     EXPECT_EQ(pass_plan(second, "a").barriers.at(0).barrier.src_stages, 0u)
-        << "nobody has touched the new image";
+        << "nothing has used the new image yet";
 }
 
-TEST(Schedule, AnImageUsedInANewWayIsMadeAnewAndWrittenAgain)
+TEST(Schedule, AnImageWithANewUsageIsRecreatedAndWrittenAgain)
 {
     const auto build = [](bool read_back) {
         graph::Graph graph;
@@ -292,7 +290,6 @@ TEST(Schedule, ContentsThatWereNotStoredAreNotTrusted)
 }
 
 // ---- Barriers, stores, lifetimes
-// ---------------------------------------------------------------------------------
 
 TEST(Schedule, ASkippedPassHasNoBarriersAndItsImageNeedsNoneToBeSampledAgain)
 {

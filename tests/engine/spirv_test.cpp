@@ -1,5 +1,4 @@
-// What reflection reads out of compiled shaders, and what
-// comes of shaders that want the wrong things. No device.
+// Reflection of compiled shaders, and the errors when a pass and its shader do not match. No device.
 #include "engine/gpu/device_choice.hpp"
 #include "engine/graph/binding_check.hpp"
 #include "tests/support/gpu.hpp"
@@ -49,7 +48,7 @@ TEST(Reflection, FindsBindingsByNameWithTypeCountAndSize)
     EXPECT_EQ(uniform->type, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER);
     EXPECT_EQ(uniform->size, sizeof(Everything));
     const graph::ShaderBinding* points = shader.find_binding("Points");
-    ASSERT_TRUE(points) << "a block without an instance name goes by its own";
+    ASSERT_TRUE(points) << "a block without an instance name is found by its block name";
     EXPECT_EQ(points->type, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     EXPECT_EQ(points->size, 4u);
     EXPECT_EQ(points->stride, sizeof(Light));
@@ -86,7 +85,7 @@ TEST(Reflection, FindsTheInputsOfAVertexShaderWithoutTheBuiltInOnes)
     EXPECT_THAT(gpu_test::shaders().find("test_quad.vert")->interface.inputs, IsEmpty());
 }
 
-TEST(Reflection, RefusesWhatIsNoModule)
+TEST(Reflection, RefusesInvalidModules)
 {
     EXPECT_THROW(graph::reflect({}), std::logic_error);
     EXPECT_THROW(graph::reflect(std::vector<std::uint32_t>{1, 2, 3, 4, 5}), std::logic_error);
@@ -113,8 +112,7 @@ TEST(Layout, ADifferenceFailsTheTest)
                             "Light.strength");
 }
 
-// ---- What passes give against what shaders want
-// ------------------------------------------------------------------
+// ---- What passes bind, checked against what shaders declare
 
 std::vector<std::string> problems_of(void (*declare)(graph::Graph&))
 {
@@ -134,10 +132,10 @@ TEST(Bindings, NoShaderSamplesMoreThanADeviceMustOffer)
         EXPECT_LE(textures, gpu::textures_per_stage) << shader.name;
         most = std::max(most, textures);
     }
-    EXPECT_EQ(most, gpu::textures_per_stage) << "devices are refused for no reason";
+    EXPECT_EQ(most, gpu::textures_per_stage) << "the limit refuses devices for no reason";
 }
 
-TEST(Bindings, NothingIsSaidWhenAllIsGiven)
+TEST(Bindings, NoProblemIsReportedWhenEverythingIsGiven)
 {
     EXPECT_THAT(problems_of([](graph::Graph& graph) {
                     graph::ComputePass& pass = graph.compute("fill", "test_fill.comp");
@@ -170,7 +168,7 @@ TEST(Bindings, EveryMistakeIsNamed)
             "pass none: there is no shader missing.comp", "pass stem: test_quad is not a compute shader"));
 }
 
-TEST(Bindings, ADrawLooksInItsPassForWhatItIsNotGiven)
+TEST(Bindings, ADrawUsesTheBindingsOfItsPass)
 {
     EXPECT_THAT(problems_of([](graph::Graph& graph) {
                     graph::RasterPass& pass = graph.raster("show");
@@ -212,7 +210,7 @@ TEST(Bindings, ImagesMustHaveTheFormatAndNumberTheShaderWrites)
                     "pass show: shader test_quad writes 1 colours, the pass has 2 targets"));
 }
 
-TEST(Bindings, AnArrayOfSamplersWantsEveryElement)
+TEST(Bindings, AnArrayOfSamplersNeedsEveryElement)
 {
     EXPECT_THAT(problems_of([](graph::Graph& graph) {
                     graph::ComputePass& pass = graph.compute("all", "test_layout.comp");

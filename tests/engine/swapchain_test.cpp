@@ -1,4 +1,4 @@
-// What of a picture is copied where in a window, and a surface that is lost.
+// Clipping of pictures to a window, and recovery from a lost surface.
 #include "engine/window/swapchain.hpp"
 
 #include <cstdlib>
@@ -12,7 +12,7 @@ using window::Box;
 using window::clipped;
 using window::PlacedPicture;
 
-TEST(PlacedPicture, InsideTheWindowStaysAsItIs)
+TEST(PlacedPicture, InsideTheWindowIsUnchanged)
 {
     const PlacedPicture picture{VK_NULL_HANDLE, {0, 0, 50, 30}, {10, 20, 110, 80}};
     const PlacedPicture cut = clipped(picture, {200, 100});
@@ -20,22 +20,22 @@ TEST(PlacedPicture, InsideTheWindowStaysAsItIs)
     EXPECT_EQ(cut.to, picture.to);
 }
 
-TEST(PlacedPicture, IsCutWithTheWindowAtTheSameScale)
+TEST(PlacedPicture, IsClippedToTheWindowAtTheSameScale)
 {
-    // Twice as large in the window: each 20 pixels outside are 10 of the picture.
+    // The window shows the picture at twice its size: 20 window pixels are 10 picture pixels.
     const PlacedPicture cut = clipped({VK_NULL_HANDLE, {0, 0, 50, 30}, {-20, 20, 80, 80}}, {60, 60});
     EXPECT_EQ(cut.to, (Box{0, 20, 60, 60}));
     EXPECT_EQ(cut.from, (Box{10, 0, 40, 20}));
 }
 
-TEST(PlacedPicture, BesideTheWindowIsNothing)
+TEST(PlacedPicture, OutsideTheWindowIsEmpty)
 {
     EXPECT_TRUE(clipped({VK_NULL_HANDLE, {0, 0, 50, 30}, {300, 0, 400, 60}}, {200, 100}).to.empty());
     EXPECT_TRUE(clipped({VK_NULL_HANDLE, {0, 0, 50, 30}, {0, 0, 0, 60}}, {200, 100}).to.empty())
         << "no width";
 }
 
-/// A system that says once that the surface is lost, where `lost` says so.
+/// The call that reports a lost surface, once.
 enum class Lost
 {
     AskingForTheSize,
@@ -67,12 +67,12 @@ void lose_once(Lost when)
     if (when == Lost::Presenting)
         vkQueuePresentKHR = [](VkQueue queue, const VkPresentInfoKHR* info) {
             vkQueuePresentKHR = present;
-            present(queue, info); // what it waits for is waited for, whatever becomes of the picture
+            present(queue, info); // the semaphores must be waited for even though the picture is lost
             return VK_ERROR_SURFACE_LOST_KHR;
         };
 }
 
-TEST(Swapchain, GoesOnWithANewSurfaceWhenOneIsLost)
+TEST(Swapchain, RecreatesALostSurface)
 {
     const Desktop desktop;
     ::setenv("DISPLAY", desktop.display().c_str(), 1);
@@ -91,14 +91,14 @@ TEST(Swapchain, GoesOnWithANewSurfaceWhenOneIsLost)
         ASSERT_TRUE(shows({0, 0, 1, 1}));
         for (const Lost when : {Lost::AcquiringAnImage, Lost::Presenting, Lost::AskingForTheSize}) {
             lose_once(when);
-            if (when == Lost::AskingForTheSize) // it is asked when the window has another size
-                desktop.user({"search", "--name", "lost", "windowsize", "--sync", "300", "180"});
+            if (when == Lost::AskingForTheSize) // the size is queried after a resize
+                desktop.xdotool({"search", "--name", "lost", "windowsize", "--sync", "300", "180"});
             else
                 EXPECT_FALSE(swapchain.show({{}, {0, 1, 0, 1}, nullptr})) << int(when);
             EXPECT_TRUE(shows({1, 0, 0, 1})) << int(when);
             EXPECT_TRUE(vkGetPhysicalDeviceSurfaceCapabilitiesKHR == ask &&
                         vkAcquireNextImageKHR == acquire && vkQueuePresentKHR == present)
-                << int(when) << ": was not lost";
+                << int(when) << ": this call was not made";
         }
         vkDeviceWaitIdle(device.handle());
         const cv::Mat3b screen = desktop.picture();

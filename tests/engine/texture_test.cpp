@@ -1,4 +1,4 @@
-// Mip levels on the CPU, and what a shader gets out of a texture.
+// Mip levels on the CPU, and what a shader reads from a texture.
 #include "engine/gpu/texture.hpp"
 #include "tests/support/gpu.hpp"
 
@@ -17,7 +17,7 @@ TEST(MipChain, GoesDownToOneTexelThroughOddSizes)
     EXPECT_EQ(levels[3].at<cv::Vec4b>(0, 0), cv::Vec4b::all(10));
 }
 
-TEST(MipChain, AveragesColourInLinearLightAndAlphaAsItIs)
+TEST(MipChain, AveragesColourInLinearLightAndAlphaUnconverted)
 {
     cv::Mat4b checks(2, 2, cv::Vec4b(0, 0, 0, 0));
     checks(0, 0) = checks(1, 1) = cv::Vec4b(255, 255, 255, 255);
@@ -39,7 +39,7 @@ TEST(MipChain, KeepsEverySrgbValueOfAFlatPicture)
 
 using TextureTest = gpu_test::Test;
 
-/// What a shader sees of a texture, one texel for each.
+/// What a shader reads from a texture, texel by texel.
 cv::Mat4f sampled(const cv::Mat& picture, gpu::Encoding encoding)
 {
     const gpu::Texture texture(gpu_test::device(), picture, encoding, false, "picture");
@@ -73,7 +73,7 @@ TEST_F(TextureTest, SrgbColourReachesTheShaderAsLinearLight)
     }
 }
 
-TEST_F(TextureTest, EveryKindOfPixelArrivesAsItIs)
+TEST_F(TextureTest, EveryPixelTypeReachesTheShaderUnchanged)
 {
     cv::Mat4f expected(3, 5);
     for (int y = 0; y < 3; ++y)

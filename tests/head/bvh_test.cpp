@@ -1,4 +1,4 @@
-// The hierarchy finds what looking at every triangle finds, to the last bit.
+// The hierarchy finds the same hits as brute force over all triangles, bit for bit.
 #include "head/bvh.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 using namespace ray_meshes;
 
-TEST(Bvh, FindsInASoupWhatLookingAtEveryTriangleFinds)
+TEST(Bvh, EqualsBruteForceOnATriangleSoup)
 {
     const Mesh mesh = soup(600);
     const Bvh bvh = mesh.bvh();
@@ -30,7 +30,7 @@ TEST(Bvh, FindsInASoupWhatLookingAtEveryTriangleFinds)
     EXPECT_LT(comparison.hits, comparison.rays);
 }
 
-TEST(Bvh, MeetsVerticesAndEdgesAimedAtExactly)
+TEST(Bvh, HitsVerticesAndEdgesThatAreAimedAtExactly)
 {
     const Mesh mesh = sphere();
     const Bvh bvh = mesh.bvh();
@@ -79,7 +79,7 @@ TEST(Bvh, IsAsExactForOriginsFarAway)
     }
 }
 
-TEST(Bvh, TellsWhereInTheTriangleTheHitIs)
+TEST(Bvh, ReturnsWhereInTheTriangleTheHitIs)
 {
     Mesh mesh;
     mesh.add({0, 0, 5}, {1, 0, 5}, {0, 1, 5}); // another one, behind
@@ -88,7 +88,7 @@ TEST(Bvh, TellsWhereInTheTriangleTheHitIs)
     const auto above = bvh.nearest({0.25, 0.5, -3}, {0, 0, 2}, 0, infinity);
     ASSERT_TRUE(above);
     EXPECT_EQ(above->triangle, 3u);
-    EXPECT_DOUBLE_EQ(above->distance, 1.5) << "in lengths of the direction";
+    EXPECT_DOUBLE_EQ(above->distance, 1.5) << "in multiples of the direction's length";
     EXPECT_DOUBLE_EQ(above->u, 0.25);
     EXPECT_DOUBLE_EQ(above->v, 0.5);
     EXPECT_FALSE(above->front);
@@ -97,7 +97,7 @@ TEST(Bvh, TellsWhereInTheTriangleTheHitIs)
     ASSERT_TRUE(behind);
     EXPECT_TRUE(behind->front);
     EXPECT_EQ(behind->triangle, 3u);
-    EXPECT_TRUE(bvh.any({0.25, 0.5, 4}, {0, 0, -1}, 4)) << "the reach belongs to it";
+    EXPECT_TRUE(bvh.any({0.25, 0.5, 4}, {0, 0, -1}, 4)) << "the range includes its end";
     EXPECT_FALSE(bvh.any({0.25, 0.5, 4}, {0, 0, -1}, 3.999));
 }
 
@@ -111,7 +111,7 @@ TEST(Bvh, FindsTheFirstOfTrianglesThatAreEquallyNear)
     EXPECT_EQ(bvh.nearest({0.003, 0.003, 1}, {0, 0, -1}, 0, infinity)->triangle, 0u) << "on the shared edge";
 }
 
-TEST(Bvh, GoesOnBehindWhatAFilterRejects)
+TEST(Bvh, ContinuesBehindHitsThatAFilterRejects)
 {
     const Mesh mesh = squares({0.1f, 0.4f, 0.2f, 0.3f, 0.0f, 0.2f});
     const Bvh bvh = mesh.bvh();
@@ -129,7 +129,7 @@ TEST(Bvh, GoesOnBehindWhatAFilterRejects)
     EXPECT_FALSE(bvh.any(eye, down, 0.95, not_passed));
 }
 
-TEST(Bvh, OfNothingMeetsNothing)
+TEST(Bvh, AnEmptyHierarchyHasNoHits)
 {
     const Bvh none = Mesh{}.bvh(), model(head::Model{});
     for (const Bvh* bvh : {&none, &model}) {
@@ -138,7 +138,7 @@ TEST(Bvh, OfNothingMeetsNothing)
     }
 }
 
-TEST(Bvh, MeetsNothingWithARayThatIsNone)
+TEST(Bvh, InvalidRaysHitNothing)
 {
     const Bvh bvh = squares({0}).bvh();
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -157,7 +157,7 @@ TEST(Bvh, MeetsNothingWithARayThatIsNone)
     EXPECT_FALSE(bvh.any(eye, down, -1));
 }
 
-TEST(Bvh, IsNotDisturbedByTrianglesThatAreNone)
+TEST(Bvh, DegenerateTrianglesChangeNoHit)
 {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(),
                     huge = std::numeric_limits<float>::infinity();
@@ -180,7 +180,7 @@ TEST(Bvh, IsNotDisturbedByTrianglesThatAreNone)
     }
 }
 
-TEST(Bvh, MayBeAskedByManyThreadsAtOnce)
+TEST(Bvh, CanBeQueriedByManyThreadsAtOnce)
 {
     const Mesh mesh = soup(600);
     const Bvh bvh = mesh.bvh(), again = mesh.bvh();
@@ -214,7 +214,7 @@ TEST(Bvh, MayBeMoved)
 
 namespace {
 
-/// The sphere as a model of three primitives: its northern and southern halves, and a lash before its middle.
+/// The sphere as a model of three primitives: northern half, southern half, a lash in front of the middle.
 head::Model lashed_sphere()
 {
     const Mesh mesh = sphere();
@@ -230,13 +230,13 @@ head::Model lashed_sphere()
     model.indices.insert(model.indices.end(), {lash, lash + 1, lash + 2});
     model.materials.resize(3);
     model.materials[1].alpha = head::AlphaMode::Blend;
-    model.primitives = {{half, all - half, 2}, {all, 3, 1}, {0, half, 0}}; // not in the indices' order
+    model.primitives = {{half, all - half, 2}, {all, 3, 1}, {0, half, 0}}; // not in index order
     head::update_bounds(model);
     return model;
 }
 
-/// What head::first_on_ray was when it looked at every triangle.
-std::optional<head::SurfacePoint> first_of_all(const head::Model& model, const Ray& ray)
+/// Brute-force version of head::first_on_ray.
+std::optional<head::SurfacePoint> first_by_brute_force(const head::Model& model, const Ray& ray)
 {
     Mesh mesh;
     for (const head::Vertex& vertex : model.vertices)
@@ -261,7 +261,7 @@ std::optional<head::SurfacePoint> first_of_all(const head::Model& model, const R
 
 } // namespace
 
-TEST(Bvh, OfAModelKnowsPrimitivesAndMaterials)
+TEST(Bvh, HitsOnAModelNamePrimitiveAndMaterial)
 {
     const head::Model model = lashed_sphere();
     const Bvh solid(model), all(model, Bvh::Triangles::All);
@@ -282,7 +282,7 @@ TEST(Bvh, OfAModelKnowsPrimitivesAndMaterials)
     EXPECT_LT(glm::distance(at, eye + skin->distance * towards), 1e-15);
 }
 
-TEST(FirstOnRay, IsWhatLookingAtEveryTriangleFinds)
+TEST(FirstOnRay, EqualsBruteForce)
 {
     const head::Model model = lashed_sphere();
     const Bvh bvh(model);
@@ -292,7 +292,7 @@ TEST(FirstOnRay, IsWhatLookingAtEveryTriangleFinds)
         const dvec3 origin = i % 7 ? dice.in_cube(0.3) : dvec3(0, 0, 1);
         const dvec3 at = i % 3 ? dice.in_cube(0.1)
                                : dvec3(model.vertices[std::size_t(i) % model.vertices.size()].position);
-        const auto expected = first_of_all(model, {origin, at - origin});
+        const auto expected = first_by_brute_force(model, {origin, at - origin});
         const auto found = head::first_on_ray(bvh, origin, at - origin);
         ASSERT_EQ(found.has_value(), expected.has_value()) << i;
         if (!expected)

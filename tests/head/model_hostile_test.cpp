@@ -52,7 +52,7 @@ GltfDocument rich_document()
 class HostileModel : public testing::Test
 {
   protected:
-    /// The refusal's text, "" where the file was accepted. Anything but an InputError fails the test.
+    /// The message of the InputError, "" if the file was accepted. Any other exception fails the test.
     std::string refusal(std::string_view bytes, std::string_view name = "head.glb")
     {
         const auto path = folder_.with(name, bytes);
@@ -67,7 +67,7 @@ class HostileModel : public testing::Test
         } catch (const base::InputError& error) {
             const std::string message = error.what();
             EXPECT_EQ(message.rfind(path.string(), 0), 0u) << "does not begin with the file: " << message;
-            EXPECT_NE(message.find("; "), std::string::npos) << "names no cure: " << message;
+            EXPECT_NE(message.find("; "), std::string::npos) << "names no remedy: " << message;
             EXPECT_EQ(message.find('\n'), std::string::npos) << "more than one line: " << message;
             return message;
         } catch (const std::exception& error) {
@@ -86,7 +86,7 @@ class HostileModel : public testing::Test
 };
 
 #define EXPECT_REFUSED(message, words)                                                                       \
-    EXPECT_NE((message).find(words), std::string::npos) << "said: " << (message)
+    EXPECT_NE((message).find(words), std::string::npos) << "message: " << (message)
 
 TEST_F(HostileModel, TheSoundFileIsAccepted)
 {
@@ -124,7 +124,7 @@ TEST_F(HostileModel, FlippedBytesNeverCrash)
     }
 }
 
-/// Every value in the document in turn becomes each of these.
+/// Replaces every value in the document, one at a time, by each hostile value.
 TEST_F(HostileModel, HostileValuesInEveryFieldNeverCrash)
 {
     const GltfDocument sound = rich_document();

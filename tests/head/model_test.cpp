@@ -104,7 +104,7 @@ TEST_F(ModelFile, RoundTripKeepsEverything)
     EXPECT_TRUE(copy.materials[1].double_sided);
 }
 
-TEST_F(ModelFile, LargeOpaqueColoursAreSavedSmallAndHardlyChanged)
+TEST_F(ModelFile, LargeOpaqueColourMapsAreCompressedWithSmallErrors)
 {
     Model model = load(GltfDocument::square());
     cv::Mat4b picture(1024, 1280);
@@ -144,7 +144,7 @@ TEST_F(ModelFile, NormalsAreWeightedByAngleNotByTheNumberOfTriangles)
     EXPECT_TRUE(near(model.vertices[model.indices[0]].normal, glm::vec3(1, 1, 1) / std::sqrt(3.0f)));
 }
 
-TEST_F(ModelFile, NormalsRunSmoothlyOverATextureSeam)
+TEST_F(ModelFile, NormalsAreSmoothAcrossATextureSeam)
 {
     // A roof: the two vertices of the ridge are doubled, with different texture coordinates.
     GltfDocument document;
@@ -168,7 +168,7 @@ TEST_F(ModelFile, TangentsFollowU)
 TEST_F(ModelFile, TangentsTurnWithTheTextureChart)
 {
     GltfDocument document = GltfDocument::square();
-    document.attribute("TEXCOORD_0", "VEC2", {1, 1, 1, 0, 0, 0, 0, 1}); // u up, to the left: a quarter turn
+    document.attribute("TEXCOORD_0", "VEC2", {1, 1, 1, 0, 0, 0, 0, 1}); // u down, v left: a quarter turn
     const Model model = load(document);
     for (const head::Vertex& vertex : model.vertices)
         EXPECT_TRUE(near(glm::vec3(vertex.tangent), {0, -1, 0}) && vertex.tangent.w == 1.0f);
@@ -244,7 +244,7 @@ TEST_F(ModelFile, NestedNodeTransformsAreApplied)
     EXPECT_TRUE(near(model.max, {10, 2, 5}));
 }
 
-TEST_F(ModelFile, MirroringNodesKeepTheOutsideOutside)
+TEST_F(ModelFile, MirroringNodesKeepFacesOutward)
 {
     GltfDocument document = GltfDocument::square();
     document.attribute("NORMAL", "VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
@@ -259,7 +259,7 @@ TEST_F(ModelFile, MirroringNodesKeepTheOutsideOutside)
     }
 }
 
-TEST_F(ModelFile, AMeshUsedTwiceIsThereTwice)
+TEST_F(ModelFile, AMeshUsedTwiceIsLoadedTwice)
 {
     GltfDocument document = GltfDocument::square();
     document.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"translation", {2, 0, 0}}}};
@@ -353,7 +353,7 @@ TEST_F(ModelFile, DegenerateTrianglesAndUnusedVerticesAreDropped)
     EXPECT_TRUE(has_note(model, "2 triangles without area"));
 }
 
-TEST_F(ModelFile, SizesNoHeadCanHaveAreScaledAndNoted)
+TEST_F(ModelFile, ImplausibleSizesAreScaledAndNoted)
 {
     GltfDocument document = GltfDocument::square();
     Model metres = load(document);

@@ -1,4 +1,4 @@
-// Tissue by its chromophores: colours near measured skin, and what healing does to them.
+// Tissue described by chromophores: its colour against measured skin, and its change during healing.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -61,7 +61,7 @@ TEST(Spectrum, SingleWavelengthsHaveTheirHue)
     EXPECT_GT(line(450)[2], 5 * std::abs(line(450)[1]));
 }
 
-TEST(Spectrum, KnowsOneThreeAndSpectralChannelsOnly)
+TEST(Spectrum, AcceptsOneThreeOrSpectralChannels)
 {
     EXPECT_EQ(optics::channel_weights(1).size(), 1u);
     EXPECT_EQ(optics::channel_weights(3).size(), 3u);
@@ -75,18 +75,18 @@ TEST(Chromophores, BloodAbsorbsAsTabulated)
     // melanosomes 67.9 mm^-1 at 500 nm.
     const optics::Layer oxygenated =
         optics::chromophore_layer("", {.blood = 1, .oxygenation = 1, .baseline = 0}, .9, 1.4, 1);
-    const optics::Layer bloodless =
+    const optics::Layer deoxygenated =
         optics::chromophore_layer("", {.blood = 1, .oxygenation = 0, .baseline = 0}, .9, 1.4, 1);
     const optics::Layer melanin = optics::chromophore_layer("", {.melanosomes = 1}, .9, 1.4, 1);
     EXPECT_NEAR(oxygenated.sigma_a[14], 28.51, .01);
-    EXPECT_NEAR(bloodless.sigma_a[14], 24.95, .01);
+    EXPECT_NEAR(deoxygenated.sigma_a[14], 24.95, .01);
     EXPECT_NEAR(melanin.sigma_a[10], 67.9, .1);
     const optics::Layer bile =
         optics::chromophore_layer("", {.bilirubin_mmol_l = 1, .water = 0, .baseline = 0}, .9, 1.4, 1);
     EXPECT_NEAR(bile.sigma_a[6], std::log(10.) * 53808 * 1e-4, 1e-9);
 }
 
-TEST(Chromophores, SkinPresetsLandOnMeasuredSkin)
+TEST(Chromophores, SkinPresetsMatchMeasuredSkin)
 {
     for (const optics::MeasuredSkin& skin : optics::measured_skins())
         EXPECT_LT(base::delta_e2000(measured_like(skin.preset), skin.lab), skin.preset == "dark" ? 2.3 : 1.0)
@@ -98,7 +98,7 @@ TEST(Chromophores, GranulationTissueIsRedAndTable1IsNot)
     const double bed = redness(fast_color(*optics::tissue_preset("granulation")));
     EXPECT_GT(bed, 25);
     EXPECT_GT(bed, redness(fast_color(*optics::tissue_preset("light"))) + 12);
-    // Taking Table 1's epidermis away makes it lighter in every channel and less red.
+    // Table 1's skin without its epidermis is lighter in every channel and less red.
     const base::Color whole = fast_color(optics::table1()),
                       stripped =
                           fast_color(optics::layers_at(optics::restored_skin(optics::table1(), 1), .2));
@@ -107,7 +107,7 @@ TEST(Chromophores, GranulationTissueIsRedAndTable1IsNot)
     EXPECT_LT(redness(stripped), redness(whole));
 }
 
-TEST(Chromophores, ThreeWavelengthsAreNotAColour)
+TEST(Chromophores, ThreeWavelengthsDoNotGiveTheColour)
 {
     const optics::Spectrum s = spectrum_of(*optics::tissue_preset("light"));
     const base::Color shortcut(s[21], s[14], s[5]); // 610, 540, 450 nm
@@ -159,7 +159,7 @@ TEST(HealingTimeline, TissueOfATableGetsBloodInItsRingAsWell)
         EXPECT_LT(change, before) << day;
         before = change;
     }
-    // Of one wavelength nobody knows how blood absorbs it.
+    // A single channel has no known wavelength, so no blood is added.
     const optics::SkinLayers grey{
         .layers = {{.name = "", .sigma_a = {.1}, .sigma_s_reduced = {1}, .thickness_mm = 2}}};
     EXPECT_EQ(optics::covered_bed(grey, 9, 21).regrown.sigma_a, grey.layers[0].sigma_a);
@@ -193,7 +193,7 @@ TEST(HealingTimeline, ColourHasNoStepFromDayToDay)
         }
 }
 
-TEST(Bruise, TurnsFromDarkToYellowAndGoes)
+TEST(Bruise, TurnsFromDarkToYellowAndFades)
 {
     const optics::ChromophoreSkin light = optics::skin(optics::SkinTone::Light);
     const auto lab = [&](double day) {

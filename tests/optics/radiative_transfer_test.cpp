@@ -45,8 +45,8 @@ optics::Stack random_stack(std::mt19937& random)
     return stack;
 }
 
-// Four standard errors, widened a little for the published values' last digit. t's error is at most the
-// binomial one.
+// Four standard errors, widened a little for the last digit of the published values. The error of t is at
+// most the binomial one.
 void expect_agreement(const optics::Response& walked, double r, double t, double photons)
 {
     EXPECT_NEAR(walked.r, r, 4.2 * walked.standard_error);
@@ -78,8 +78,8 @@ TEST(AddingDoubling, HasThePublishedValuesForNormalLight)
     check(one(.99, 10, .76, 1.4), .38425, .31760);
 }
 
-// His half spaces are converged to 2e-4 only: his own quadrature with as many angles gives his digits, with
-// more it comes to what ours gives with few.
+// The published half spaces are converged to 2e-4 only: their quadrature (Slab) with 8 angles gives the
+// published digits, and with 64 angles what the smooth quadrature gives with 8.
 TEST(AddingDoubling, HasThePublishedHalfSpacesWithTheirQuadrature)
 {
     for (const auto& [albedo, published] : {std::pair{.8, .18095}, {.95, .38711}, {.99, .63156}}) {
@@ -110,7 +110,7 @@ TEST(AddingDoubling, HasThePublishedValuesForDiffuseLight)
     check(one(.99, 10, .76, 1.4), .43099, .28563);
 }
 
-TEST(AddingDoubling, ReachesThePhotonWalkOnTable1)
+TEST(AddingDoubling, AgreesWithThePhotonWalkOnTable1)
 {
     // 1e7 photons and more, diffuse light, first-surface reflection excluded; standard error <= .0003.
     const double expected[] = {.697, .207, .166};
@@ -134,7 +134,7 @@ TEST(AddingDoubling, FewAnglesAreEnough)
     }
 }
 
-TEST(AddingDoubling, BearsABackwardPeakAsWellAsAForwardOne)
+TEST(AddingDoubling, HandlesBackwardAndForwardPeaks)
 {
     for (double g : {-.9, -.7, .7, .9}) {
         const optics::Stack stack{{{.3, 2, g, 1.4, 1}}, 1, 1.3};
@@ -151,7 +151,7 @@ TEST(AddingDoubling, BearsABackwardPeakAsWellAsAForwardOne)
     }
 }
 
-TEST(AddingDoubling, ReturnsAndPassesOnNoMoreThanArrives)
+TEST(AddingDoubling, ReflectsAndTransmitsNoMoreThanArrives)
 {
     random_tissue::Draw draw(4);
     for (int i = 0; i < 1500; ++i) {
@@ -185,19 +185,19 @@ TEST(AddingDoubling, LosesNothingWithoutAbsorption)
             ASSERT_NEAR(x.r + x.t, 1, 1e-12) << random_tissue::text(stack);
         }
     }
-    // A half space that absorbs nothing sends everything back; a little absorption a counts as its root.
-    const auto kept_back = [](double a) {
+    // A half space without absorption reflects everything; with a little absorption a, the loss is ~ sqrt(a).
+    const auto loss = [](double a) {
         return 1 - optics::reflectance({{{a, 5.255, .6, 2.87, infinity}}, 1, 1},
                                        optics::ReflectanceModel::AddingDoubling)
                        .r;
     };
-    EXPECT_LT(kept_back(0), 1e-10);
-    EXPECT_LT(kept_back(1e-300), 1e-10);
+    EXPECT_LT(loss(0), 1e-10);
+    EXPECT_LT(loss(1e-300), 1e-10);
     for (double a : {1e-16, 1e-14, 1e-12, 1e-10, 1e-8})
-        EXPECT_NEAR(kept_back(a) / std::sqrt(a), 8.30, .05) << a;
+        EXPECT_NEAR(loss(a) / std::sqrt(a), 8.30, .05) << a;
 }
 
-TEST(AddingDoubling, DoesNotSeeALayerSplitInTwo)
+TEST(AddingDoubling, IsUnchangedByALayerSplitInTwo)
 {
     random_tissue::Draw draw(6);
     for (int i = 0; i < 1500; ++i) {
@@ -341,7 +341,7 @@ TEST(MonteCarlo, RefusesWalksThatWouldTakeHours)
     EXPECT_EQ(refusal(0, 0, 0, infinity, 1000), ""); // clear
 }
 
-TEST(NumericalModels, TakeExactFresnelWhateverTheAnalyticOnesTake)
+TEST(NumericalModels, UseExactFresnelWhateverTheAnalyticModelsUse)
 {
     const optics::Stack stack{{{1e-3, 2, .6, 3, 1}}, 1, 1};
     for (optics::ReflectanceModel model :

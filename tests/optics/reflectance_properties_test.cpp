@@ -1,5 +1,5 @@
-// What must hold for any tissue, in double precision: thousands of random stacks and all corners, for every
-// model that promises it. The same in the shader's single precision: reflectance_float_test.cpp.
+// Properties that hold for any tissue, in double precision: thousands of random stacks and all corners, for
+// every model that guarantees them. reflectance_float_test.cpp: the same in the shader's single precision.
 #include <gtest/gtest.h>
 #include <numeric>
 
@@ -21,7 +21,7 @@ const std::vector<optics::Stack>& every_kind()
     return stacks;
 }
 
-// Calls check(stack, model, light) for all of them, until one fails.
+// Calls check(stack, model, light) for all combinations, until one fails.
 template <std::size_t count, typename Check>
 void for_each_case(const optics::ReflectanceModel (&models)[count], const Check& check)
 {
@@ -41,7 +41,7 @@ bool same(const optics::Response& a, const optics::Response& b, double tolerance
 
 } // namespace
 
-TEST(BoundedModels, ReturnAndPassOnNoMoreThanArrives)
+TEST(BoundedModels, ReflectAndTransmitNoMoreThanArrives)
 {
     for_each_case(bounded, [](const optics::Stack& stack, optics::ReflectanceModel model,
                               const optics::ReflectanceOptions& light) {
@@ -51,7 +51,7 @@ TEST(BoundedModels, ReturnAndPassOnNoMoreThanArrives)
     });
 }
 
-TEST(BoundedModels, SeeNothingInALayerWithoutThickness)
+TEST(BoundedModels, IgnoreALayerWithoutThickness)
 {
     Draw draw(2);
     for_each_case(bounded, [&](const optics::Stack& without, optics::ReflectanceModel model,
@@ -83,7 +83,7 @@ TEST(TwoStream, AccountsForAllLight)
     });
 }
 
-TEST(TwoStream, DoesNotSeeALayerSplitInTwo)
+TEST(TwoStream, IsUnchangedByALayerSplitInTwo)
 {
     Draw draw(3);
     for_each_case(two_streams, [&](const optics::Stack& whole, optics::ReflectanceModel model,
@@ -95,7 +95,7 @@ TEST(TwoStream, DoesNotSeeALayerSplitInTwo)
     });
 }
 
-TEST(TwoStream, MakesNoStepWhereACoefficientVanishes)
+TEST(TwoStream, IsContinuousWhereACoefficientVanishes)
 {
     Draw draw(4);
     for_each_case(two_streams, [&](const optics::Stack& stack, optics::ReflectanceModel model,
@@ -112,7 +112,7 @@ TEST(TwoStream, MakesNoStepWhereACoefficientVanishes)
     });
 }
 
-TEST(TwoStream, MakesNoStepAnywhere)
+TEST(TwoStream, IsContinuousEverywhere)
 {
     // A coefficient that grows by one part in a million moves R and T by no more than that.
     Draw draw(5);

@@ -1,4 +1,4 @@
-// The analytic models against published values and against what must hold for any tissue.
+// The analytic models against published values and against properties that hold for any tissue.
 #include "wound/optics/reflectance.hpp"
 
 #include <cmath>
@@ -39,8 +39,7 @@ TEST(Fresnel, DiffuseReflectanceHasThePublishedValues)
 TEST(Fresnel, ClosedFormIsTheIntegralOverTheHemisphere)
 {
     for (double ratio : {1.0001, 1.01, 1.049, 1.051, 1.1, 1.333, 1.5, 2.0, 3.0}) {
-        // F_dr = 2 integral F(mu) mu dmu, by the midpoint rule in sqrt(1 - mu), which is smooth at grazing
-        // light.
+        // F_dr = 2 integral F(mu) mu dmu, by the midpoint rule in sqrt(mu), which is smooth at grazing light.
         double sum = 0;
         const int count = 200000;
         for (int i = 0; i < count; ++i) {
@@ -92,7 +91,7 @@ TEST(Published, ReproducesThePrintedEquationsOnTable1)
 
 TEST(Published, ReportsEveryLayerAndChannelOutsideItsDomain)
 {
-    // Of the paper's thicknesses the epidermis in G and B, all of the dermis at 4 mm and the whole subcutis.
+    // With the paper's thicknesses: the epidermis in G and B, the whole dermis at 4 mm, the whole subcutis.
     std::vector<optics::OutsideDomain> thin = optics::outside_domain(optics::table1(.2, 1, 4)),
                                        thick = optics::outside_domain(optics::table1(.2, 4, 9));
     ASSERT_EQ(thin.size(), 5u);
@@ -126,7 +125,7 @@ TEST(TwoStream, KubelkaMunkLimitsHold)
     EXPECT_NEAR(optics::slab(2, 1, .7).r_top, 1 / (a + b / std::tanh(b * 2 * .7)), 1e-15);
 }
 
-TEST(HealingTissue, AnInjuryTakesLayersFromTheTop)
+TEST(HealingTissue, AnInjuryRemovesLayersFromTheTop)
 {
     const optics::TissueDay fresh = optics::restored_skin(optics::table1(), 1);
     EXPECT_EQ(optics::layers_at(fresh, 0).layers.size(), 3u);
@@ -136,12 +135,12 @@ TEST(HealingTissue, AnInjuryTakesLayersFromTheTop)
     EXPECT_EQ(bed.layers[0].name, "dermis");
     EXPECT_NEAR(bed.layers[0].thickness_mm, .5, 1e-12);
     EXPECT_EQ(optics::layers_at(fresh, 1e9).layers.back().thickness_mm, 2);
-    // Table 1's skin grows lighter without its epidermis, not red.
+    // Table 1's skin without its epidermis is lighter, not red.
     EXPECT_THAT(optics::diffuse_color(optics::layers_at(fresh, .2), optics::ReflectanceModel::TwoStream),
                 rgb(.732, .422, .423, .025));
 }
 
-TEST(HealingTissue, ColourChangesWithoutAStepAsTheDepthGrows)
+TEST(HealingTissue, ColourIsContinuousInTheDepth)
 {
     const optics::TissueDay fresh = optics::restored_skin(optics::table1(), 1);
     std::vector<double> before =
@@ -155,7 +154,7 @@ TEST(HealingTissue, ColourChangesWithoutAStepAsTheDepthGrows)
     }
 }
 
-TEST(HealingTissue, RestoredSkinIsIntactSkinWhenTheDepthIsGone)
+TEST(HealingTissue, RestoredSkinIsIntactSkinAtDepthZero)
 {
     EXPECT_EQ(optics::diffuse_color(optics::layers_at(optics::restored_skin(optics::table1(), 0), 2),
                                     optics::ReflectanceModel::TwoStream),
@@ -166,7 +165,7 @@ TEST(HealingTissue, RestoredSkinIsIntactSkinWhenTheDepthIsGone)
                                     optics::ReflectanceModel::TwoStream));
 }
 
-TEST(HealingTissue, RegrownTissueAndCoverLieOnWhatIsLeft)
+TEST(HealingTissue, RegrownTissueAndCoverLieOnTheRemainingTissue)
 {
     optics::TissueDay day = optics::restored_skin(optics::table1(), .25);
     day.regrown_ratio = .75;

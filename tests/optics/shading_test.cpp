@@ -71,7 +71,7 @@ TEST(Ward, AlbedoEqualsThePlainIntegralOverOutgoingDirections)
         }
 }
 
-TEST(Ward, BoundedModelNeverReturnsMoreThanItGets)
+TEST(Ward, BoundedModelNeverReflectsMoreThanItReceives)
 {
     for (double alpha_x : {1e-4, 0.02, 0.4, 1.5})
         for (double alpha_y : {1e-4, 0.1, 1.5})
@@ -102,7 +102,7 @@ TEST(Ward, IsReciprocal)
         }
 }
 
-TEST(Ward, AnisotropyIsAlongTheAxesItNames)
+TEST(Ward, AnisotropyFollowsTheNamedAxes)
 {
     // A slope of .1 along x and .5 along y: tilting the half vector along x costs more.
     const cv::Vec3d up(0, 0, 1);
@@ -114,7 +114,7 @@ TEST(Ward, AnisotropyIsAlongTheAxesItNames)
     }
 }
 
-TEST(Ward, NothingBelowTheHorizonAndNothingUndefinedAtIt)
+TEST(Ward, IsZeroBelowTheHorizonAndFiniteAtIt)
 {
     for (optics::WardModel model : ward_models) {
         EXPECT_EQ(optics::ward(model, 0.4, 0.4, direction(91, 0), direction(10, 0)), 0);
@@ -137,7 +137,7 @@ TEST(Translucency, PublishedWeightIsSeventeenAtTheLight)
     EXPECT_NEAR(optics::translucency(optics::published_shading(), 2), 0.2472, 1e-4); // 1.15^-10
 }
 
-TEST(Translucency, BoundedWeightStaysUnderItsBoundAndMeetsThePublishedWhereThatIsSmall)
+TEST(Translucency, BoundedWeightStaysUnderItsBoundAndApproachesSmallPublishedWeights)
 {
     optics::Shading bounded;
     const double bound = bounded.translucency_bound();
@@ -154,17 +154,16 @@ TEST(Translucency, BoundedWeightStaysUnderItsBoundAndMeetsThePublishedWhereThatI
     EXPECT_NEAR(optics::translucency(bounded, 0), bound, 1e-6);
 }
 
-TEST(Translucency, BoundedWeightIsNothingWhereDiffuseLightAlreadyReturnsAll)
+TEST(Translucency, BoundedWeightIsZeroWhereDiffuseReflectanceIsOne)
 {
     optics::Shading bounded;
     bounded.rho_d = 1;
     EXPECT_EQ(optics::translucency(bounded, 1), 0);
 }
 
-TEST(Translucency, MayBeInterpolatedBetweenVertices)
+TEST(Translucency, CanBeInterpolatedBetweenVertices)
 {
-    // A head .18 m wide lit from .7 m; an edge of 3 mm in any direction, anywhere on the ball that holds the
-    // head.
+    // A head 0.18 m wide, lit from 0.7 m; a 3 mm edge in any direction, anywhere on its bounding sphere.
     const optics::DistanceMap map = optics::paper_distance(0.18, 0.7);
     const cv::Vec3d light(0, 0, 0.7);
     const auto weight = [&](const optics::Shading& shading, const cv::Vec3d& p) {
@@ -182,7 +181,7 @@ TEST(Translucency, MayBeInterpolatedBetweenVertices)
 
 TEST(Translucency, PaperDistanceReproducesThePapersSetUp)
 {
-    // A head 0.22 m wide, its light at 0.2 m: the paper's own proportion.
+    // A head 0.22 m wide with its light at 0.2 m has the proportions of the paper.
     const optics::DistanceMap same = optics::paper_distance(0.22, 0.2);
     EXPECT_NEAR(same.offset, 0, 1e-12);
     EXPECT_NEAR(same.scale * 0.2, 2, 1e-12);
@@ -192,7 +191,7 @@ TEST(Translucency, PaperDistanceReproducesThePapersSetUp)
     EXPECT_NEAR(far.scale * (1.11 - 0.89), 2.2, 1e-12);
 }
 
-TEST(Blend, PublishedEndsShortOfTheSkin)
+TEST(Blend, PublishedDoesNotReachTheSkinColour)
 {
     const base::Color w(0.5, 0.1, 0.1), r(0.7, 0.2, 0.2), s(0.6, 0.4, 0.3);
     EXPECT_EQ(optics::blend(optics::BlendModel::Published, w, r, s, 0), w);
@@ -214,7 +213,7 @@ TEST(Blend, CorrectedIsExactAtBothEnds)
     EXPECT_EQ(optics::blend(optics::BlendModel::Corrected, w, r, s, 1.5), s);
 }
 
-TEST(Blend, StaysAmongItsColors)
+TEST(Blend, IsAConvexCombination)
 {
     for (optics::BlendModel model : {optics::BlendModel::Published, optics::BlendModel::Corrected})
         for (double r = 0; r <= 1; r += 1.0 / 64) {
@@ -225,7 +224,7 @@ TEST(Blend, StaysAmongItsColors)
         }
 }
 
-TEST(Shade, PaperSceneAddsUp)
+TEST(Shade, PaperSceneHasTheClosedFormValue)
 {
     // Light, viewer and normal in line, distance 2: C (.7 + .7 / 1.15^10) + .8 / (4 pi .16).
     optics::Light light;
@@ -241,8 +240,8 @@ TEST(Shade, PaperSceneAddsUp)
 
 TEST(Shade, WhiteFurnace)
 {
-    // White skin under a white sky of radiance 1. Irradiance / pi is 1, so sum strength = sky * d(omega) / pi
-    // over the hemisphere; rho_s counts 1/pi of its albedo because eq. (8) leaves the pi of Lambert's law in
+    // White skin under a white sky of radiance 1: each light has the strength d(omega) / pi, so that
+    // irradiance / pi is 1. rho_s counts 1/pi of its albedo because eq. (8) leaves the pi of Lambert's law in
     // I.
     optics::Shading shading;
     shading.rho_ts = 0;
@@ -293,7 +292,7 @@ TEST(Shade, PointLightFallsWithTheSquareOfDistanceAndDirectionalDoesNot)
     EXPECT_NEAR(optics::shade(shading, light, {}, 1)[0], near, 1e-12);
 }
 
-TEST(Shade, BrightestPointFacingTheLightReturnsNoMoreThanItGets)
+TEST(Shade, BrightestPointFacingTheLightReflectsNoMoreThanItReceives)
 {
     optics::Shading shading;
     shading.rho_s = 0;
@@ -348,7 +347,7 @@ TEST(ShadingInput, OutOfRangeIsRefusedByName)
         }
 }
 
-TEST(ShadingInput, TranslucencyWithoutMeaningIsRefusedOnlyWhereItCanBeReached)
+TEST(ShadingInput, UndefinedTranslucencyIsRefusedOnlyAtReachableDistances)
 {
     optics::Shading shading;
     shading.alpha = -0.2; // alpha d + beta = 0 at d = 3.75
@@ -357,7 +356,7 @@ TEST(ShadingInput, TranslucencyWithoutMeaningIsRefusedOnlyWhereItCanBeReached)
     EXPECT_THROW(optics::check_shading(shading, {0.9, 3.75}, "scene"), base::InputError);
 }
 
-TEST(ShadingInput, ReachableDistancesSpanTheBall)
+TEST(ShadingInput, ReachableDistancesSpanTheBoundingSphere)
 {
     optics::Light light;
     light.position = {0, 0, 0.2};
@@ -367,7 +366,7 @@ TEST(ShadingInput, ReachableDistancesSpanTheBall)
     EXPECT_NEAR(range.max, 3.1, 1e-12);
     light.kind = optics::LightKind::Directional;
     EXPECT_NEAR(optics::translucency_distances(light, {0.5, 0, 0}, 0.11).min, 0.9,
-                1e-12); // sideways costs nothing
+                1e-12); // a sideways offset changes nothing
 }
 
 TEST(ShadingInput, BadLightsAreRefused)

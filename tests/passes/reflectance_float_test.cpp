@@ -1,6 +1,6 @@
-// What must hold for any tissue, in the shader's single precision: the functions of
-// shaders/lib/reflectance.glsl on the stacks of reflectance_properties_test.cpp. Nothing is rounded to half
-// on the way out.
+// Properties that hold for any tissue, in the shader's single precision: the functions of
+// shaders/lib/reflectance.glsl on stacks like those of reflectance_properties_test.cpp. The results are read
+// back as 32-bit floats.
 #include "tests/shaders/reflectance_case.h"
 
 #include "tests/support/gpu.hpp"
@@ -66,7 +66,7 @@ double difference(const optics::Response& a, const optics::Response& b)
     return std::max(std::abs(a.r - b.r), std::abs(a.t - b.t));
 }
 
-// Fails where the shader answers to one list of stacks and to the other differently.
+// Fails where the shader gives different results for the two lists of stacks.
 void expect_same(const std::vector<optics::Stack>& a, const std::vector<optics::Stack>& b,
                  optics::ReflectanceModel level, double tolerance)
 {
@@ -77,9 +77,9 @@ void expect_same(const std::vector<optics::Stack>& a, const std::vector<optics::
     }
 }
 
-// An operation rounds by 6e-8. Of an adding about five show in R and T; six layers and seven boundaries take
-// twelve of them. Seen: 3.3e-6, and 1.1e-5 against the reference, to which the diffuse Fresnel reflectances
-// add theirs.
+// One operation rounds by 6e-8. About five roundings of each adding step reach R and T; six layers and seven
+// boundaries take twelve steps. Measured: 3.3e-6, and 1.1e-5 against the reference, which includes rounding
+// of the diffuse Fresnel reflectances.
 constexpr double rounding = 4e-6, reference_tolerance = 2e-5;
 
 using ReflectanceInFloat = gpu_test::Test;
@@ -99,7 +99,7 @@ TEST_F(ReflectanceInFloat, EqualsTheReference)
     }
 }
 
-TEST_F(ReflectanceInFloat, ReturnsAndPassesOnNoMoreThanArrives)
+TEST_F(ReflectanceInFloat, ReflectsAndTransmitsNoMoreThanArrives)
 {
     for (optics::ReflectanceModel level : bounded) {
         const std::vector<optics::Response> responses = evaluate(every_kind(), level);
@@ -124,7 +124,7 @@ TEST_F(ReflectanceInFloat, LosesNothingWithoutAbsorption)
     }
 }
 
-TEST_F(ReflectanceInFloat, DoesNotSeeALayerSplitInTwo)
+TEST_F(ReflectanceInFloat, IsUnchangedByALayerSplitInTwo)
 {
     Draw draw(2);
     std::vector<optics::Stack> split;
@@ -134,7 +134,7 @@ TEST_F(ReflectanceInFloat, DoesNotSeeALayerSplitInTwo)
         expect_same(split, every_kind(), level, rounding);
 }
 
-TEST_F(ReflectanceInFloat, SeesNothingInALayerWithoutThickness)
+TEST_F(ReflectanceInFloat, IgnoresALayerWithoutThickness)
 {
     Draw draw(3);
     std::vector<optics::Stack> with;
@@ -144,7 +144,7 @@ TEST_F(ReflectanceInFloat, SeesNothingInALayerWithoutThickness)
         expect_same(with, every_kind(), level, rounding);
 }
 
-TEST_F(ReflectanceInFloat, MakesNoStepWhereACoefficientVanishes)
+TEST_F(ReflectanceInFloat, IsContinuousWhereACoefficientVanishes)
 {
     Draw draw(4);
     for (double optics::LayerOptics::*coefficient : coefficients) {
@@ -159,7 +159,7 @@ TEST_F(ReflectanceInFloat, MakesNoStepWhereACoefficientVanishes)
     }
 }
 
-TEST_F(ReflectanceInFloat, MakesNoStepAnywhere)
+TEST_F(ReflectanceInFloat, IsContinuousEverywhere)
 {
     // A coefficient that grows by one part in a thousand moves R and T by no more than that.
     Draw draw(5);

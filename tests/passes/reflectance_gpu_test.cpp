@@ -68,7 +68,7 @@ class RandomTissue
         return result;
     }
 
-    /// One day for each row: four intact layers of the given thicknesses, regrown tissue and cover on some.
+    /// One day per row: intact layers of the given thicknesses; some rows have regrown tissue and a cover.
     std::vector<optics::TissueDay> rows(std::size_t count, const std::vector<double>& thicknesses, double low,
                                         double high, bool injured)
     {
@@ -97,8 +97,8 @@ double expected(double color)
     return color > 0 ? std::min(color, 65504.0) : 0;
 }
 
-// Single precision in the formulas, then half, which some drivers reach by truncation: one unit in the last
-// place.
+// The shader computes in single precision and stores half floats, which some drivers truncate: an error of
+// one unit in the last place.
 void expect_table(const cv::Mat4f& table, const std::vector<optics::TissueDay>& rows,
                   const passes::LutTissue& tissue, optics::ReflectanceModel model, double absolute)
 {

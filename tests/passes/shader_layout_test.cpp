@@ -1,4 +1,4 @@
-// Each struct of shaders/shared/ lies alike in C++ and in the shaders that are shipped.
+// Each struct of shaders/shared/ has the same layout in C++ and in the shipped shaders.
 #include <gtest/gtest.h>
 
 #include "shaders/shared/frame.h"

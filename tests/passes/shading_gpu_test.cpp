@@ -63,9 +63,8 @@ using ShadingOnGpu = gpu_test::Test;
 
 } // namespace
 
-// The lobe's exponent is (|h| / (slope h.z))^2, so a rounding of h by one float step moves it by more the
-// narrower the slope and the lower h. The test allows what 2 steps in either component of h can do, and 1e-5
-// besides.
+// The lobe's exponent is (|h| / (slope h.z))^2. Rounding h by one float step changes it more for a narrower
+// slope and a lower h. The test allows the effect of 2 steps in either component of h, plus 1e-5.
 TEST_F(ShadingOnGpu, WardEqualsTheReferenceUpToTheRoundingOfItsHalfVector)
 {
     constexpr double step = 2.5e-7;
@@ -94,7 +93,7 @@ TEST_F(ShadingOnGpu, WardEqualsTheReferenceUpToTheRoundingOfItsHalfVector)
         const auto model = static_cast<optics::WardModel>(c.model);
         const double reference = optics::ward(model, ax, ay, i, o) * std::max(0.0, i[2]);
 
-        const double wide = 1e9; // a lobe so wide that only what stands before it is left
+        const double wide = 1e9; // a lobe so wide that only the factor before its exponential is left
         const double peak =
             optics::ward(model, wide, wide, i, o) * std::max(0.0, i[2]) * wide * wide / (ax * ay);
         const double hz = std::max(i[2], optics::ward_min_cosine) + std::max(o[2], optics::ward_min_cosine);
@@ -102,7 +101,7 @@ TEST_F(ShadingOnGpu, WardEqualsTheReferenceUpToTheRoundingOfItsHalfVector)
         const double slack = step * std::hypot(1 / ax, 1 / ay) / hz;
         const double low = std::exp(-std::pow(steepness + slack, 2));
         const double high = std::exp(-std::pow(std::max(0.0, steepness - slack), 2));
-        const double relative = 1e-5 + 3e-7 * steepness * steepness; // exp() itself: 3 + 2 |x| float steps
+        const double relative = 1e-5 + 3e-7 * steepness * steepness; // exp() may be off by 3 + 2 |x| steps
         EXPECT_GE(value, peak * low * (1 - relative) - tiny) << "case " << n << ", reference " << reference;
         EXPECT_LE(value, peak * high * (1 + relative) + tiny) << "case " << n << ", reference " << reference;
         if (ax >= 0.1f && ay >= 0.1f && hz > 0.05 && reference > 1e-6)
@@ -145,10 +144,10 @@ TEST_F(ShadingOnGpu, TranslucencyEqualsTheReference)
         shading.gamma = c.params.gamma;
         shading.translucency_model = static_cast<optics::TranslucencyModel>(c.model);
         shading.rho_d = 0;
-        shading.rho_ts = c.a.x > 0 ? 1.0 / c.a.x : 0; // gives this bound
+        shading.rho_ts = c.a.x > 0 ? 1.0 / c.a.x : 0; // so that this is the bound
         const double reference =
-            std::min(optics::translucency(shading, c.number), std::exp2(31.0)); // as far as the shader goes
-        // log2 is good to 5e-7 near 1, and alpha d + beta to a float step; gamma multiplies both.
+            std::min(optics::translucency(shading, c.number), std::exp2(31.0)); // the shader's upper limit
+        // log2 is accurate to 5e-7 near 1, alpha d + beta to a float step; gamma multiplies both errors.
         const double relative = 5e-6 + 1e-6 * c.params.gamma + 3e-7 * std::abs(std::log2(reference + tiny));
         EXPECT_NEAR(values[n].x, reference, relative * reference + 2e-9) << "case " << n;
         if (c.model == shared::TRANSLUCENCY_BOUNDED) {
@@ -249,7 +248,7 @@ TEST_F(ShadingOnGpu, FramesAreOrthonormalWhateverTheInterpolatedVectorsAre)
     }
 }
 
-TEST_F(ShadingOnGpu, NormalsBentAwayAreTurnedJustIntoView)
+TEST_F(ShadingOnGpu, NormalsThatFaceAwayAreTurnedJustIntoView)
 {
     std::vector<ShadingCase> cases;
     for (double z : {1.0, 0.5, 0.02, 0.0, -0.3, -0.999, -1.0}) {
@@ -316,7 +315,7 @@ TEST_F(ShadingOnGpu, WholeEquationEqualsTheReference)
     }
 }
 
-TEST_F(ShadingOnGpu, NoLightNearNoFarNoneInsideTheSkinGivesAnythingButAColor)
+TEST_F(ShadingOnGpu, EveryLightPositionGivesAValidColor)
 {
     std::vector<ShadingCase> cases;
     for (shared::uint kind :
@@ -347,7 +346,7 @@ TEST_F(ShadingOnGpu, NoLightNearNoFarNoneInsideTheSkinGivesAnythingButAColor)
         EXPECT_TRUE(is_color(values[n])) << values[n].x << " in case " << n;
 }
 
-TEST_F(ShadingOnGpu, SharedStructsLieAlikeInBothLanguages)
+TEST_F(ShadingOnGpu, SharedStructsHaveTheSameLayoutInBothLanguages)
 {
     using shared::Light, shared::ShadingParams;
     gpu_test::expect_layout("shading_test.comp", "ShadingParams", sizeof(ShadingParams),

@@ -115,9 +115,9 @@ using ShadowOnGpu = gpu_test::Test;
 
 } // namespace
 
-TEST_F(ShadowOnGpu, PlateDarkensTheFloorWhereGeometrySaysAndNowhereElse)
+TEST_F(ShadowOnGpu, PlateShadowsTheFloorExactlyWhereGeometryPredicts)
 {
-    // Light .5 above the plate, floor .1 below: the shadow is 1.2 times the plate, .024 half wide.
+    // Light .5 above the plate, floor .1 below: the shadow is 1.2 times the plate, with half width .024.
     const Scene scene = floor_under_a_plate();
     std::vector<Receiver> receivers;
     for (float x = -0.098f; x < 0.098f; x += 0.00049f)
@@ -191,7 +191,7 @@ TEST_F(ShadowOnGpu, FarSideOfABallIsDark)
         EXPECT_EQ(lit, 0);
 }
 
-TEST_F(ShadowOnGpu, OutsideTheLightsPictureAllIsLit)
+TEST_F(ShadowOnGpu, EverythingOutsideTheShadowMapIsLit)
 {
     const Scene scene = floor_under_a_plate();
     for (float lit : visibilities(
@@ -200,7 +200,7 @@ TEST_F(ShadowOnGpu, OutsideTheLightsPictureAllIsLit)
         EXPECT_EQ(lit, 1);
 }
 
-TEST_F(ShadowOnGpu, RunsOnlyWhenTheLightMovesAndSomebodyLooks)
+TEST_F(ShadowOnGpu, RunsOnlyWhenTheLightMovesAndAReceiverExists)
 {
     const Scene scene = floor_under_a_plate();
     const gpu::MeshBuffer mesh =
@@ -216,7 +216,7 @@ TEST_F(ShadowOnGpu, RunsOnlyWhenTheLightMovesAndSomebodyLooks)
     EXPECT_EQ(state(light_at({0.1f, 0, 0.55f}), {}), graph::PassState::Culled);
 }
 
-TEST_F(ShadowOnGpu, SharedStructLiesAlikeInBothLanguages)
+TEST_F(ShadowOnGpu, SharedStructHasTheSameLayoutInBothLanguages)
 {
     gpu_test::expect_layout(
         "shadow_test.comp", "Shadow", sizeof(shared::Shadow),

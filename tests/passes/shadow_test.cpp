@@ -35,7 +35,7 @@ const std::vector<optics::Light> lights = {
 
 } // namespace
 
-TEST(Shadow, FrustumHoldsTheWholeBoxAndWastesLittle)
+TEST(Shadow, FrustumEnclosesTheBoxTightly)
 {
     for (const optics::Light& light : lights) {
         const auto shadow = passes::fit_shadow(light, head_min, head_max);
@@ -53,7 +53,7 @@ TEST(Shadow, FrustumHoldsTheWholeBoxAndWastesLittle)
     }
 }
 
-TEST(Shadow, NearerTheLightIsLessDeepAndUpIsUp)
+TEST(Shadow, DepthGrowsAwayFromTheLightAndUpIsUp)
 {
     const auto shadow = passes::fit_shadow(point_light(0, 0, 1), head_min, head_max);
     ASSERT_TRUE(shadow);
@@ -74,13 +74,13 @@ TEST(Shadow, TexelIsItsWidthInMetres)
     }
 }
 
-TEST(Shadow, LightInsideTheHeadCastsNone)
+TEST(Shadow, LightInsideTheHeadCastsNoShadow)
 {
     EXPECT_FALSE(passes::fit_shadow(point_light(0, 0, 0), head_min, head_max));
     EXPECT_FALSE(passes::fit_shadow(point_light(0.1, 0, 0), head_min, head_max));
 }
 
-TEST(Shadow, EmptyBoxCastsNone)
+TEST(Shadow, EmptyBoxCastsNoShadow)
 {
     EXPECT_FALSE(passes::fit_shadow(point_light(0, 0, 1), {}, {}));
 }

@@ -1,5 +1,5 @@
-// What a wound makes of a point of skin: the CPU's (wound/skin_blend.hpp, with the CPU's own maps and table)
-// against the forward pass, on a wall whose every point is known.
+// The skin under a wound as computed on the CPU (wound/skin_blend.hpp, with the CPU's maps and table) against
+// the forward pass, on a flat wall with known coordinates.
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ cv::Vec3d to_cv(const glm::dvec3& v)
     return {v.x, v.y, v.z};
 }
 
-const cv::Vec3b normal_code(150, 118, 250); // in all of the normal map
+const cv::Vec3b normal_code(150, 118, 250); // of every texel of the normal map
 
 /// A square of skin at z = 0, 24 cm wide, which faces +z.
 head::Model wall()
@@ -47,7 +47,7 @@ head::Model wall()
     return model;
 }
 
-/// Nothing but C of eq. (4), dimmed by occlusion: white light from everywhere.
+/// Draws only C of eq. (4) times occlusion: white ambient light and no other term.
 optics::Shading bare_color(optics::BlendModel model)
 {
     optics::Shading shading = optics::skin_shading();
@@ -57,7 +57,7 @@ optics::Shading bare_color(optics::BlendModel model)
     return shading;
 }
 
-/// A wound on the wall, which a camera sees straight on, one pixel to a point.
+/// A wound on the wall, seen head-on by a camera.
 class Scene
 {
   public:
@@ -68,7 +68,7 @@ class Scene
     {
         healing.model = model;
         anchor_.half_width_m = .5e-3 * prepared.patch.width_mm;
-        camera_.fov_deg = 2 * 180 / CV_PI * std::atan(anchor_.half_width_m / distance_m); // the patch's size
+        camera_.fov_deg = 2 * 180 / CV_PI * std::atan(anchor_.half_width_m / distance_m); // shows the patch
         const wound::LutRows rows =
             wound::lut_rows(optics::skin(optics::SkinTone::Light), healing, wound::lut_size, last_day);
         table_ =
@@ -179,7 +179,7 @@ Difference compare_color(Scene& scene, const wound::WoundDay& today, const wound
     });
 }
 
-/// Light from one side, and what it makes of the surface: the diffuse light or the highlight alone.
+/// For light from one side: only the diffuse term or only the highlight.
 optics::Shading lit(bool highlight)
 {
     optics::Shading shading = optics::skin_shading();
@@ -210,7 +210,7 @@ using SkinBlendOnGpu = gpu_test::Test;
 
 } // namespace
 
-TEST_F(SkinBlendOnGpu, ColorAndOcclusionEqualTheCpus)
+TEST_F(SkinBlendOnGpu, ColorAndOcclusionEqualThoseOfTheCpu)
 {
     for (const std::string& shape : wound::shape_names())
         for (const auto model : {wound::HealingModel::Face, wound::HealingModel::Contraction}) {
@@ -229,10 +229,10 @@ TEST_F(SkinBlendOnGpu, ColorAndOcclusionEqualTheCpus)
         }
 }
 
-// Albedo and normal are seen in the diffuse light; normal, occlusion, wetness and tautness in the highlight,
-// which is as bright as 3 and turns with the slope: that is the difference of depths in half floats, and off
-// by .01 in places (day_maps_test.cpp).
-TEST_F(SkinBlendOnGpu, LightAndHighlightEqualTheCpus)
+// Diffuse light depends on albedo and normal; the highlight on normal, occlusion, wetness and tautness. The
+// highlight is as bright as 3 and follows the slope, which is a difference of depths in half floats and off
+// by .01 in places (wound_texture_test.cpp).
+TEST_F(SkinBlendOnGpu, DiffuseLightAndHighlightEqualThoseOfTheCpu)
 {
     const optics::Light light{.kind = optics::LightKind::Directional,
                               .position = {0, 0, 0},
@@ -260,8 +260,8 @@ TEST_F(SkinBlendOnGpu, LightAndHighlightEqualTheCpus)
     }
 }
 
-// The patch leans away from the wall, so that what the skin receives of the wound fades with the height above
-// the patch's plane and with the angle.
+// The patch leans away from the wall, so that the wound on the skin fades with the height above the plane of
+// the patch and with the angle.
 TEST_F(SkinBlendOnGpu, FadesWithTheProjectionAsOnTheCpu)
 {
     for (const double lean_deg : {50., 70.}) {

@@ -19,7 +19,7 @@ cv::Mat4b encode(const cv::Mat4f& linear, float exposure, passes::Highlights hig
     return cv::Mat4b(executor.run(graph).mat(back).clone());
 }
 
-// 0 to 1.25 left to right, not a multiple of any workgroup.
+// 0 to 1.25 from left to right; the size is not a multiple of any workgroup.
 cv::Mat4f ramp()
 {
     cv::Mat4f image(3, 253);
@@ -57,7 +57,7 @@ TEST_F(Tonemap, ExposureIsInStops)
     EXPECT_EQ(cv::Vec3b(code[0], code[1], code[2]), expected);
 }
 
-TEST_F(Tonemap, ShoulderLeavesSkinAloneAndKeepsHighlightsApart)
+TEST_F(Tonemap, ShoulderKeepsSkinUnchangedAndHighlightsDistinct)
 {
     cv::Mat4f linear(1, 3);
     linear(0, 0) = cv::Vec4f(0.6f, 0.4f, 0.3f, 1);
@@ -70,7 +70,7 @@ TEST_F(Tonemap, ShoulderLeavesSkinAloneAndKeepsHighlightsApart)
     EXPECT_EQ(clipped(0, 1), clipped(0, 2));
 }
 
-TEST_F(Tonemap, WhatIsNoColorBecomesBlackOrWhite)
+TEST_F(Tonemap, InvalidColorsBecomeBlackOrWhite)
 {
     cv::Mat4f linear(1, 3);
     linear(0, 0) = cv::Vec4f(-1, -1e30f, -0.0f, 1);

@@ -6,7 +6,7 @@
 
 namespace {
 
-/// What a frame of the tile would draw of a scene that goes on beyond the picture.
+/// What a frame of the tile would draw; the scene extends beyond the picture.
 cv::Mat1f drawn(const passes::ViewportTile& tile)
 {
     cv::Mat1f image(int(tile.size[1]), int(tile.size[0]));
@@ -23,7 +23,7 @@ cv::Mat1f assembled(const std::vector<passes::ViewportTile>& tiles, bool blurred
     cv::Mat whole;
     for (const passes::ViewportTile& tile : tiles) {
         cv::Mat image = drawn(tile);
-        if (blurred) // as a pass that reads its pixel's neighbours
+        if (blurred) // like a pass that reads neighbouring pixels
             cv::blur(image, image, {5, 5}, {-1, -1}, cv::BORDER_REPLICATE);
         passes::place(whole, image, tile);
     }
@@ -50,16 +50,16 @@ TEST(Tiles, CoverThePictureOnce)
         }
 }
 
-TEST(Tiles, WithAnApronShowNoSeamOfAPassThatReadsNeighbours)
+TEST(Tiles, WithAnApronHaveNoSeamsInAPassThatReadsNeighbours)
 {
     const std::array<std::uint32_t, 2> size{301, 203};
     const cv::Mat1f whole = assembled(passes::tiles(size, 16384, 2), true);
     EXPECT_EQ(cv::norm(assembled(passes::tiles(size, 64, 2), true), whole, cv::NORM_INF), 0);
     EXPECT_GT(cv::norm(assembled(passes::tiles(size, 64), true), whole, cv::NORM_INF), 1)
-        << "without, it does";
+        << "without an apron there are seams";
 }
 
-TEST(Tiles, SeeTheirPartOfThePicture)
+TEST(Tiles, ProjectTheirPartOfThePicture)
 {
     const passes::ViewportTile tile = passes::tiles(std::array{200u, 100u}, 50, 10)[5]; // second row, second column
     const glm::dmat4 crop = passes::tile_from_picture(tile);

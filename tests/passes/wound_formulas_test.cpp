@@ -1,4 +1,4 @@
-// What wound_texture.comp and wound_relief.comp compute, beside the warp, against independent
+// The formulas of wound_texture.comp and wound_relief.comp, except the warp, against independent
 // double-precision versions.
 #include <cmath>
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ cv::Mat4f read(const gpu::FrameResult& frame, graph::ReadbackId id)
     return values;
 }
 
-// The maps hold half floats: 11 bits, and a rank that is off by that turns a texel by three times as much.
-TEST_F(WoundFormulas, PhasesColourTheBedAsTheReferenceDoes)
+// The maps hold half floats (11 bits); such an error in a rank changes a texel by three times as much.
+TEST_F(WoundFormulas, PhaseColoursOfTheBedEqualTheReference)
 {
     constexpr int side = 64;
     wound::Patch patch{cv::Mat3f(side, side), cv::Mat1f(side, side, 1.f), cv::Mat1f(side, side, 1.f),
@@ -62,7 +62,7 @@ TEST_F(WoundFormulas, PhasesColourTheBedAsTheReferenceDoes)
     }
 }
 
-/// Depth today, mm, from the state map; the nearest texel beyond the edge.
+/// Depth today, mm, from the state map, clamped to the edge.
 double depth(const cv::Mat4f& state, int x, int y, double scale, double scar_mm)
 {
     const cv::Vec4f s = state(std::clamp(y, 0, state.rows - 1), std::clamp(x, 0, state.cols - 1));

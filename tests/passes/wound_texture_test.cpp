@@ -1,5 +1,5 @@
-// The wound's compute passes: the warped mask's area, the shader's warp against the double-precision one, the
-// maps of a day against the CPU's, hostile days.
+// The compute passes of a wound: the area of the warped mask, the shader's warp against the double-precision
+// one, the maps of a day against those of the CPU, extreme days.
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ wound::PreparedWound prepared(const wound::Photograph& photograph, int patch_siz
     return wound::prepare(photograph, preparation);
 }
 
-/// A day of which only the areas matter.
+/// A day defined by its areas only.
 wound::WoundDay day_with(const wound::PreparedWound& wound, double bed_ratio, double border_ratio,
                          WarpModel model = WarpModel::Grid)
 {
@@ -59,7 +59,7 @@ wound::WoundDay day_with(const wound::PreparedWound& wound, double bed_ratio, do
     return day;
 }
 
-/// What the passes draw, as floats.
+/// The maps that the passes draw, as floats.
 wound::DayMaps draw(gpu::Executor& executor, const passes::WoundMaps& maps, const wound::WoundDay& today)
 {
     graph::Graph graph;
@@ -123,11 +123,11 @@ double largest_error(const wound::Warp& warp, gpu::Executor& executor)
     return largest * 256;
 }
 
-/// `largest`: bounds of the channels' differences.
+/// `largest`: the bound for each channel's difference.
 void expect_near(const cv::Mat4f& map, const cv::Mat4f& reference, const cv::Vec4d& largest,
                  const std::string& where)
 {
-    constexpr double mean = 5e-4; // roundings are as often up as down: what is off everywhere is off by rule
+    constexpr double mean = 5e-4; // rounding alone stays below it; a larger mean is a systematic error
     ASSERT_EQ(map.size(), reference.size());
     const cv::Mat4f off = cv::abs(map - reference);
     const cv::Scalar means = cv::mean(off);
@@ -141,15 +141,15 @@ void expect_near(const cv::Mat4f& map, const cv::Mat4f& reference, const cv::Vec
 
 } // namespace
 
-TEST_F(WoundTextureOnGpu, WarpedMaskHasTheAreaThatWasAskedFor)
+TEST_F(WoundTextureOnGpu, WarpedMaskHasTheRequestedArea)
 {
     expect_areas("default", prepared(wound::synthesize({})));
     expect_areas("irregular", prepared(irregular_photograph()));
 }
 
 // Single precision against double. Largest errors found on lavapipe, in texels of 512: radial .0001, grid
-// .0001, dense .1 (one thin plate over the whole way has huge weights that cancel), composed .001. The bounds
-// leave room for a device that rounds logarithms less well.
+// .0001, dense .1 (one thin-plate spline for the whole warp has huge weights that cancel), composed .001. The
+// bounds leave room for a device with less accurate logarithms.
 TEST_F(WoundTextureOnGpu, EveryModelOfTheWarpEqualsTheReference)
 {
     const std::map<WarpModel, double> bounds{{WarpModel::Radial, .001},
@@ -172,7 +172,7 @@ TEST_F(WoundTextureOnGpu, EveryModelOfTheWarpEqualsTheReference)
     }
 }
 
-TEST_F(WoundTextureOnGpu, NoDayGivesAnythingButColorsAndShares)
+TEST_F(WoundTextureOnGpu, EveryDayGivesValidColorsAndShares)
 {
     const wound::PreparedWound wound = prepared(wound::synthesize({}), 128);
     const passes::WoundMaps maps = passes::upload_wound(gpu_test::device(), wound.patch);
@@ -210,18 +210,18 @@ TEST_F(WoundTextureOnGpu, NoDayGivesAnythingButColorsAndShares)
     }
 }
 
-// What is left out has no opacity on any day, and what is drawn is what the whole patch would have been
-// there.
+// Outside the drawn region the opacity is zero on every day; inside it the maps equal those of the whole
+// patch.
 TEST_F(WoundTextureOnGpu, OnlyTheWoundsOwnRegionIsDrawn)
 {
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
     wound::Healing face, contraction, growing;
     contraction.model = wound::HealingModel::Contraction;
     growing.model = wound::HealingModel::Contraction;
-    growing.curve.theta = -.4; // to 1.4 of its area, then it heals
+    growing.curve.theta = -.4; // grows to 1.4 of its area, then heals
     for (const wound::Photograph& photograph : {wound::synthesize({}), irregular_photograph()}) {
         wound::PreparedWound wound = prepared(photograph, 128);
-        wound.patch.opacity.setTo(0, wound.patch.opacity < .05f); // its edge lies where something can be seen
+        wound.patch.opacity.setTo(0, wound.patch.opacity < .05f); // its edge is then visible
         passes::WoundMaps maps = passes::upload_wound(gpu_test::device(), wound.patch);
         for (const wound::Healing& healing : {face, contraction, growing}) {
             const cv::Rect whole = maps.region, region = wound::drawn_region(wound, healing);
@@ -257,15 +257,15 @@ TEST_F(WoundTextureOnGpu, DayZeroIsThePatchItself)
         cv::cvtColor(drawn.color, color, cv::COLOR_RGBA2RGB);
         cv::extractChannel(drawn.state, bed, 2);
         EXPECT_LT(cv::norm(color, wound.patch.color, cv::NORM_INF),
-                  .002); // two half floats and a warp by nothing
+                  .002); // two half floats and an identity warp
         EXPECT_LT(cv::norm(bed, wound.patch.mask, cv::NORM_INF), .002);
     }
 }
 
-// Day 0 and today are kept in half floats, each within half a step, 2^-11 of the value; a device may filter
-// with weights in steps of 1/256, which is as much again in a texture whose texels differ by up to a half.
-// Slope and occlusion are differences of such depths, over a texel and more.
-TEST_F(WoundTextureOnGpu, MapsOfADayEqualTheCpus)
+// Day 0 and today are stored in half floats, each within half a step, 2^-11 of the value. A device may filter
+// with weights in steps of 1/256, which adds as much again in a texture with texels that differ by up to a
+// half. Slope and occlusion are differences of such depths over one texel or more.
+TEST_F(WoundTextureOnGpu, MapsOfADayEqualThoseOfTheCpu)
 {
     constexpr double share = 2e-3; // of the largest value
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());

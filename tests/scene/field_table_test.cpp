@@ -1,4 +1,4 @@
-// The table of a scene's fields: what the documents say of it, its sliders, and the keys made from it.
+// The table of a scene's fields: its documentation, its sliders, and the keys computed from it.
 #include <fmt/format.h>
 #include <functional>
 #include <gmock/gmock.h>
@@ -14,13 +14,13 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-TEST(FieldTable, IsWhatTheDocumentSays)
+TEST(FieldTable, EqualsTheDocumentation)
 {
     const std::vector<std::uint8_t> bytes = base::read_file(CICATRIX_DOCS "/scene.md", 1 << 20);
     const std::string document(bytes.begin(), bytes.end());
     for (const auto& [name, table] : scene::field_documentation())
         EXPECT_THAT(document, HasSubstr(fmt::format("<!-- table {} -->\n{}<!-- end -->", name, table)))
-            << "make it again: cicatrix-lab scene-fields docs/scene.md";
+            << "regenerate it: cicatrix-lab scene-fields docs/scene.md";
 }
 
 TEST(FieldTable, EveryFieldIsWrittenUnderItsNameAndReadBack)
@@ -35,14 +35,14 @@ TEST(FieldTable, EveryFieldIsWrittenUnderItsNameAndReadBack)
     const json written = scene::to_json(scene);
     EXPECT_EQ(scene::scene_of(written, "/a/scene.json", "scene"), scene);
     for (const auto& field : scene::scene_fields())
-        if (field.name != "healing") { // of every wound: each says its own
+        if (field.name != "healing") { // written with each wound instead
             EXPECT_TRUE(written.contains(field.name)) << field.name;
         }
     for (const auto& field : scene::shading_fields())
         EXPECT_TRUE(written.at("shading").contains(field.name)) << field.name;
 }
 
-/// A field with a slider takes all that the slider can give.
+/// A field with a slider must accept every value of the slider.
 template <typename Object>
 void expect_sliders_within_range(const std::vector<scene::Field<Object>>& fields,
                                  const std::function<json(const std::string&, double)>& scene_with)
@@ -98,7 +98,7 @@ TEST(FieldTable, KeysOfPreparedWoundsChangeWithEveryFieldThatMattersToThem)
         {"depth_factor", [](auto& w) { w.depth_factor = 2; }, false, false},
         {"healing", [](auto& w) { w.healing.curve.gamma = 2; }, false, false},
     };
-    EXPECT_EQ(std::size(changes), scene::wound_fields().size()) << "a new field: say here what it changes";
+    EXPECT_EQ(std::size(changes), scene::wound_fields().size()) << "a new field: add it to the table above";
     const scene::Wound wound;
     for (const Change& change : changes) {
         scene::Wound other = wound;
@@ -112,7 +112,7 @@ TEST(FieldTable, KeysOfPreparedWoundsChangeWithEveryFieldThatMattersToThem)
     }
 }
 
-TEST(SceneVersion, OfTheFutureIsRefused)
+TEST(SceneVersion, OtherThanTheCurrentOneIsRefused)
 {
     EXPECT_NO_THROW(scene::scene_of(json{{"version", 1}}, "scene.json", "scene.json"));
     for (const json& version : {json(2), json(0), json("1"), json(1.5)})
@@ -124,7 +124,7 @@ TEST(SceneVersion, OfTheFutureIsRefused)
         }
 }
 
-TEST(Files, OfASceneAreRenamedWhereverTheyAre)
+TEST(Files, OfASceneAreAllRenamed)
 {
     scene::Scene scene;
     scene.head = "h.glb";

@@ -7,7 +7,7 @@
 
 namespace {
 
-TEST(LoadedScene, KnowsItsWoundsOnAnyDay)
+TEST(LoadedScene, EvaluatesItsWoundsOnAnyDay)
 {
     scene::Scene scene = small::scene(small::head());
     scene.wounds.resize(2);
@@ -40,7 +40,7 @@ TEST(LoadedScene, PlacesWoundsWhereACameraSeesThem)
     EXPECT_EQ(surface.size(), loaded.wounds[0].region.size());
 }
 
-TEST(LoadedScene, ThatCannotBeLoadedSaysWhy)
+TEST(LoadedScene, ErrorsSayWhyASceneCannotBeLoaded)
 {
     scene::Scene scene = small::scene(small::head());
     scene.wounds[0].place = head::FacePoint{2.9, 2.9};

@@ -47,7 +47,7 @@ TEST_F(SceneFile, EmptyObjectIsTheDefaultScene)
     EXPECT_EQ(scene::to_json(read("{}")), scene::to_json(scene::Scene{}));
 }
 
-TEST_F(SceneFile, AreasGiveAWoundItsCurveAndTheScenesHealingEveryWound)
+TEST_F(SceneFile, AreasGiveTheHealingCurveAndWoundsInheritTheScenesHealing)
 {
     folder_.with("areas.csv",
                  "wound,day,area\nold-1,0,20\nold-1,5,12.13\nold-1,20,2.71\nold-2,0,20\nold-2,5,12.13\n"
@@ -99,7 +99,7 @@ TEST_F(SceneFile, WhatIsWrittenReadsBackAsTheSameScene)
     EXPECT_EQ(scene::to_json(read(written.dump())), written);
 }
 
-TEST_F(SceneFile, FilesLieBesideTheScene)
+TEST_F(SceneFile, RelativePathsStartAtTheFolderOfTheScene)
 {
     const scene::Scene scene =
         read(R"({"head": "a.glb", "wounds": [{"photo": "b.jpg", "mask": "/elsewhere/c.png"}]})");
@@ -166,7 +166,7 @@ TEST_F(SceneFile, EachMistakeNamesFileAndField)
             << text;
 }
 
-TEST_F(SceneFile, ThatDoesNotExistIsNamed)
+TEST_F(SceneFile, AMissingFileIsNamed)
 {
     EXPECT_THAT(refusal([&] { scene::read_scene(folder_ / "none.json"); }), HasSubstr("none.json"));
     EXPECT_THAT(refusal([&] { scene::read_scene(folder_.path()); }), HasSubstr(folder_.path().string()));
@@ -181,7 +181,7 @@ TEST(Days, AreARangeOrAList)
     EXPECT_THAT(scene::parse_days("3650", "--days"), ElementsAre(3650));
 }
 
-TEST(Days, ThatMakeNoSenseAreRefused)
+TEST(Days, InvalidOnesAreRefused)
 {
     for (const char* text : {"", ",", "5,", "a", "1,b", "-1", "nan", "inf", "3651", "1e99", "0:30", "0:30:0",
                              "0:30:-1", "30:0:1", "0:3650:1e-9", "1:2:3:4", "0:nan:1", "5 "})
@@ -218,7 +218,7 @@ TEST(SceneOptions, OverrideTheScene)
     EXPECT_EQ(scene.samples, 4u);
 }
 
-TEST(SceneOptions, PublishedModeIsThePapersInEveryPart)
+TEST(SceneOptions, PublishedModeUsesThePapersModelInEveryPart)
 {
     scene::SceneOptions options;
     options.mode = "published";

@@ -1,4 +1,4 @@
-// One stack of layers for one analytic level, for the test of the shader's own single precision.
+// One stack of layers and an analytic model, for the test of the shader's single precision.
 #ifndef TESTS_REFLECTANCE_CASE_H
 #define TESTS_REFLECTANCE_CASE_H
 #include "../../shaders/shared/glsl.h"

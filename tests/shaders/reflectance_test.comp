@@ -1,4 +1,4 @@
-// Reflects one stack of layers per invocation: r, r without the first surface's, t.
+// The reflectance of one stack of layers per invocation: r, r without the first surface, t.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

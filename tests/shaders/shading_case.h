@@ -19,7 +19,7 @@ CONSTANT FORMULA_TANGENT = 6;          // a = normal, b and number = tangent
 CONSTANT FORMULA_BITANGENT = 7;
 CONSTANT FORMULA_NORMAL = 8;
 CONSTANT FORMULA_BEND = 9;             // a = normal, b = to viewer
-CONSTANT FORMULA_SHADE = 10;           // a = position, b = to viewer, c = albedo, number = visibility; the frame is the world's
+CONSTANT FORMULA_SHADE = 10;           // a = position, b = to viewer, c = albedo, number = visibility; world frame
 
 struct ShadingCase
 {

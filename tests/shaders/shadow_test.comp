@@ -1,4 +1,4 @@
-// The shadow on a list of points.
+// The visibility of the light from each point of a list.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

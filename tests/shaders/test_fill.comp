@@ -1,4 +1,4 @@
-// Fills an image with a colour plus its own texel coordinates, to see that every texel is reached.
+// Fills an image with a colour plus its own texel coordinates, to check that every texel is written.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 layout(local_size_x = 8, local_size_y = 8) in;

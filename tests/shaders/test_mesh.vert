@@ -1,4 +1,4 @@
-// Draws a mesh as it lies in clip space, moved in depth.
+// Draws a mesh given in clip space, moved in depth.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 layout(location = 0) in vec3 position;

@@ -1,4 +1,4 @@
-// What `cicatrix capture` draws: tiles that join without a seam, views and cameras as numbers.
+// The output of `cicatrix capture`: tiles without seams, views, camera records, transparency, films.
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// The renderer that these tests share; it watches its own device.
+/// The renderer that these tests share, with validation on.
 stage::Renderer& renderer()
 {
     static stage::Renderer shared({.validation = true});
@@ -51,7 +51,7 @@ class Capture : public testing::Test
     }
 };
 
-/// All channels' differences.
+/// The largest difference of a channel, for each pixel.
 cv::Mat1b difference(const cv::Mat& a, const cv::Mat& b)
 {
     cv::Mat each, largest;
@@ -130,8 +130,8 @@ TEST(Tiles, CoverThePictureWithEqualTilesAtEvenPixels)
     EXPECT_EQ(cv::countNonZero(covered != 1), 0);
 }
 
-// A pixel on an outline may fall to the other side of it, for a vertex is rounded to the device's sub-pixels
-// in each tile anew; within the head and the backdrop, rounding alone differs.
+// A pixel on an outline may fall on the other side of it, because each tile rounds vertices to the device's
+// sub-pixels again. Inside the head and the backdrop only rounding differs.
 TEST_F(Capture, TilesJoinWithoutASeam)
 {
     for (const std::uint32_t samples : {1u, 4u})
@@ -150,7 +150,7 @@ TEST_F(Capture, TilesJoinWithoutASeam)
             EXPECT_LT(cv::norm(a.radiance, b.radiance, cv::NORM_L1) / double(a.radiance.total()), 1e-4);
             const cv::Mat1b elsewhere =
                 difference(a.picture, draw(on, on.loaded().close_up(0), whole).picture);
-            EXPECT_GT(cv::countNonZero(elsewhere > 1), 1000) << "the comparison sees differences";
+            EXPECT_GT(cv::countNonZero(elsewhere > 1), 1000) << "the comparison must detect differences";
         }
 }
 
@@ -194,7 +194,7 @@ TEST_F(Capture, CameraMatricesAgreeWithEachOtherAndWithThePicture)
     EXPECT_GT(cv::countNonZero(alpha), 3000);
 }
 
-TEST_F(Capture, ViewsAreStandardOnesOrTheScenes)
+TEST_F(Capture, ViewsAreStandardOnesOrThoseOfTheScene)
 {
     scene::Scene scene = small::scene(small::head());
     scene.views = {{"steep", scene::Camera{{10, 60}, 0, 20}}, {"close-up", std::nullopt}};
@@ -225,8 +225,8 @@ TEST_F(Capture, ViewsAreStandardOnesOrTheScenes)
                                             "day_002.500_close-up", "day_000_2_steep", "day_000_2_close-up"));
 }
 
-// The picture that a transparent one gives over the studio's backdrop is the opaque one: its edges carry the
-// colour of the head alone, without a dark fringe. Codes of 8 bits for colour and alpha leave two of 255.
+// A transparent picture over the studio's backdrop equals the opaque one: its edges have the colour of the
+// head alone, without a dark fringe. 8 bits for colour and alpha allow an error of 2 of 255.
 TEST_F(Capture, TransparentPicturesCompositeToTheOpaqueOne)
 {
     for (const std::uint32_t samples : {1u, 4u}) {
@@ -240,7 +240,7 @@ TEST_F(Capture, TransparentPicturesCompositeToTheOpaqueOne)
             ++pixels[pixel[3] == 0 ? 0 : pixel[3] < 255 ? 1 : 2];
         EXPECT_GT(pixels[0], 5000);
         EXPECT_GT(pixels[2], 5000);
-        EXPECT_EQ(pixels[1] > 100, samples == 4) << "edges are antialiased with more samples only";
+        EXPECT_EQ(pixels[1] > 100, samples == 4) << "edges are antialiased only with several samples";
 
         const passes::Backdrop studio = passes::backdrop_of(passes::ViewportTile({256, 200}));
         const auto behind = [&](int y) {
@@ -291,7 +291,7 @@ TEST_F(Capture, SweepsMoveDayAndCameraEvenly)
     const std::vector<scene::Shot> round = scene::shots_of_sweep(on.loaded(), view, {0, 9, 360, 10, "orbit"});
     ASSERT_EQ(round.size(), 10u);
     EXPECT_EQ(round[0].name, "orbit_000");
-    EXPECT_EQ(round[0].camera.eye, on.loaded().camera().eye) << "begins as the picture";
+    EXPECT_EQ(round[0].camera.eye, on.loaded().camera().eye) << "starts at the scene's camera";
     const auto from_axis = [&](const glm::dvec3& point) {
         const glm::dvec3 arm = point - on.loaded().head_middle();
         return glm::dvec2(std::atan2(arm.x, arm.z), std::hypot(arm.x, arm.z));
@@ -308,8 +308,7 @@ TEST_F(Capture, SweepsMoveDayAndCameraEvenly)
     EXPECT_EQ(scene::shots_of_sweep(on.loaded(), view, {5, 5, 90, 1, "orbit"})[0].turn_deg, 0);
 }
 
-// H.264 stores colour at half resolution and loses a little; a frame must still be its own picture and no
-// other.
+// H.264 is lossy and stores colour at half resolution; each frame must still match its own picture best.
 TEST_F(Capture, FilmAndPicturesAgreeFrameByFrame)
 {
     const TemporaryFolder folder;
@@ -370,7 +369,7 @@ TEST_F(Capture, WritesTurntablesWithAlphaAndLinearLight)
     ASSERT_EQ(light.type(), CV_32FC4);
     cv::Mat alpha;
     cv::extractChannel(light, alpha, 3);
-    EXPECT_EQ(cv::sum(alpha > 0.5)[0], cv::sum(alpha > 0)[0]) << "one sample: head or not";
+    EXPECT_EQ(cv::sum(alpha > 0.5)[0], cv::sum(alpha > 0)[0]) << "with one sample, alpha is 0 or 1";
     EXPECT_GT(cv::countNonZero(alpha), 500);
     EXPECT_TRUE(std::filesystem::exists(options.out / "healing.png"));
 }

@@ -1,5 +1,5 @@
-// The two ends of healing: on day 0 the wound's own picture is seen, at closure the skin that was there
-// before.
+// The two ends of healing: day 0 shows the wound's own picture, closure shows the skin as it was before the
+// wound.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
@@ -11,7 +11,7 @@
 
 namespace {
 
-/// Nothing but C of eq. (4), in white light from everywhere.
+/// Draws only C of eq. (4), in white ambient light.
 optics::Shading bare_color(optics::Shading shading)
 {
     shading.lambert = shading.translucency = shading.ward = shading.normal_map = shading.shadow = false;
@@ -47,7 +47,7 @@ cv::Mat4b picture(const stage::Stage& stage, double day)
     return executor.run(graph).mat(back).clone();
 }
 
-/// The scene's first wound once it is ready.
+/// Waits until the scene's first wound is fitted, and returns it.
 const scene::FittedWound& fitted_wound(const stage::Stage::Preparation& preparation)
 {
     const scene::Wound& wound = preparation.scene.wounds[0];
@@ -56,15 +56,15 @@ const scene::FittedWound& fitted_wound(const stage::Stage::Preparation& preparat
         preparation.loader->wait();
         preparation.loader->collect();
     }
-    return photograph->wounds[0]; // the loader keeps it
+    return photograph->wounds[0]; // owned by the loader
 }
 
 using Endpoint = gpu_test::Test;
 
 } // namespace
 
-// A flat wall of one colour, seen straight on so that two pixels make one texel of the patch: what is seen
-// must be the patch over the wall's colour, as far as half floats hold it.
+// A flat wall of one colour, seen head-on with two pixels per texel of the patch: the picture must be the
+// patch over the wall's colour, within the precision of half floats.
 TEST_F(Endpoint, DayZeroShowsTheWoundsOwnPicture)
 {
     const glm::vec3 skin(0.55f, 0.36f, 0.27f);
@@ -76,7 +76,7 @@ TEST_F(Endpoint, DayZeroShowsTheWoundsOwnPicture)
         const stage::Stage::Preparation props = stage::Stage::prepare(scene);
         const scene::FittedWound& fitted = fitted_wound(props);
         const wound::Patch patch = fitted.prepared.patch;
-        cv::Mat(patch.depth_mm).setTo(0); // the pixels are the stage's, too: a hollow would darken itself
+        cv::Mat(patch.depth_mm).setTo(0); // shares its pixels with the stage; a cavity would occlude itself
         const double half_width = fitted.anchor.half_width_m;
         const stage::Stage stage(gpu_test::device(), props);
         const double fov_deg =
@@ -109,7 +109,7 @@ TEST_F(Endpoint, DayZeroShowsTheWoundsOwnPicture)
     }
 }
 
-TEST_F(Endpoint, ClosureLeavesTheSkinThatWasThereBefore)
+TEST_F(Endpoint, ClosureRestoresTheSkinBeforeTheWound)
 {
     scene::Scene scene = small::scene(small::head());
     scene.wounds[0].healing.model = wound::HealingModel::Contraction;
@@ -119,12 +119,11 @@ TEST_F(Endpoint, ClosureLeavesTheSkinThatWasThereBefore)
     const stage::Stage bare(gpu_test::device(), stage::Stage::prepare(unhurt));
     const cv::Mat4b without = picture(bare, 365);
     EXPECT_LE(cv::norm(picture(stage, 365), without, cv::NORM_INF), 1);
-    EXPECT_GT(cv::norm(picture(stage, 0), without, cv::NORM_INF), 40)
-        << "on day 0 there is something to heal";
+    EXPECT_GT(cv::norm(picture(stage, 0), without, cv::NORM_INF), 40) << "the wound must be visible on day 0";
 }
 
-// The issue's own words: no jump in any pixel greater than the day-to-day change around it. A jump is what is
-// left of a change when the step shrinks; and half-day steps must not suddenly grow.
+// No pixel may jump by more than its day-to-day change around closure. A jump is the part of a change that
+// remains when the step shrinks. Half-day steps must not suddenly grow either.
 TEST_F(Endpoint, NothingJumpsWhereTheWoundBecomesAScar)
 {
     for (const auto model : {wound::HealingModel::Face, wound::HealingModel::Contraction}) {
@@ -147,7 +146,7 @@ TEST_F(Endpoint, NothingJumpsWhereTheWoundBecomesAScar)
         cv::absdiff(seen(closed + 0.005), seen(closed - 0.005), jump);
         cv::absdiff(steps[6], steps[4], before);
         cv::absdiff(steps[8], steps[6], after);
-        const cv::Mat3f around = cv::max(before, after); // of a day, pixel by pixel
+        const cv::Mat3f around = cv::max(before, after); // per day, pixel by pixel
         constexpr double half_float = 1e-3;              // radiance is held in half floats
         double least = 1;
         cv::minMaxLoc(cv::Mat3f(around - jump).reshape(1), &least);
@@ -156,6 +155,6 @@ TEST_F(Endpoint, NothingJumpsWhereTheWoundBecomesAScar)
         for (std::size_t k = 1; k + 1 < change.size(); ++k)
             EXPECT_LE(change[k], 2 * std::max(change[k - 1], change[k + 1]) + half_float)
                 << name << ", from day " << closed + 0.5 * (double(k) - 6);
-        EXPECT_GT(change[0], 4 * half_float) << name << ": something still heals";
+        EXPECT_GT(change[0], 4 * half_float) << name << ": the skin must still change";
     }
 }

@@ -1,4 +1,4 @@
-// The real frame: which passes run again after which change, and that its pictures are reproducible.
+// The renderer's frame: which passes each change reruns, and that pictures are reproducible.
 #include <gmock/gmock.h>
 
 #include "stage/stage.hpp"
@@ -12,7 +12,7 @@ using graph::PassState;
 using testing::IsSupersetOf;
 using testing::UnorderedElementsAre;
 
-/// A scene on the shared device with the memory of what was drawn last.
+/// A stage on the shared device and an executor that remembers the last frame.
 struct Studio
 {
     explicit Studio(const scene::Scene& scene)
@@ -66,7 +66,7 @@ using Frame = gpu_test::Test;
 
 } // namespace
 
-TEST_F(Frame, RunsAgainOnlyWhatAChangeReaches)
+TEST_F(Frame, RerunsOnlyPassesThatAChangeAffects)
 {
     Studio studio(small::scene(small::head()));
     EXPECT_THAT(ran(studio.draw(3)), UnorderedElementsAre("wound_texture", "wound_relief", "reflectance_lut",
@@ -117,10 +117,10 @@ TEST_F(Frame, TakesANumericalReflectanceTableFromTheCpu)
                 UnorderedElementsAre("wound_texture", "wound_relief", "shadow", "forward", "tonemap"));
     const cv::Mat4b a = calibrated.picture(9), b = numerical.picture(9);
     EXPECT_GT(share_that_differs(a, b, 0), 0.001) << "another model gives another colour";
-    EXPECT_EQ(share_that_differs(a, b, 16), 0) << "but both are good ones";
+    EXPECT_EQ(share_that_differs(a, b, 16), 0) << "but both must be accurate";
 }
 
-TEST_F(Frame, OfEveryWoundRunsAgainWhatTheDayReaches)
+TEST_F(Frame, RerunsPassesOnlyForWoundsThatTheDayChanges)
 {
     scene::Scene scene = small::scene(small::head(), 64);
     scene.wounds.resize(2);
@@ -149,7 +149,7 @@ TEST_F(Frame, IsTheSameBitByBitInTwoRuns)
 {
     const scene::Scene scene = small::scene(small::head());
     Studio first(scene), second(scene);
-    second.draw(0); // what was drawn before leaves no trace
+    second.draw(0); // an earlier frame must have no effect
     const cv::Mat4b a = first.picture(7), b = second.picture(7);
     EXPECT_EQ(share_that_differs(a, b, 0), 0);
     EXPECT_GT(share_that_differs(a, first.picture(0), 8), 0.002) << "the wound is in the picture";

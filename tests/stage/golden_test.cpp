@@ -1,7 +1,7 @@
 // A few small pictures against golden ones in tests/golden/: they say "changed", never "wrong".
 //
-// After a change that is meant to be seen, look at the pictures in golden_failures/ of the build folder and
-// make new golden ones:
+// After an intended change of the pictures, look at those in golden_failures/ of the build folder and write
+// new golden ones:
 //   CICATRIX_WRITE_GOLDEN=1 ctest --test-dir build -R Golden
 #include <cstdlib>
 #include <gtest/gtest.h>

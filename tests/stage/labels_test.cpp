@@ -1,4 +1,4 @@
-// Labels against what is known: a disc on a wall, points through the camera, silhouettes, what hides what.
+// Labels against known answers: a disc on a wall, points projected by the camera, silhouettes, occlusion.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <numbers>
@@ -24,7 +24,7 @@ struct Labelled
     passes::LabelMaps maps;
     std::vector<passes::VisibleWound> visible;
     std::vector<passes::WoundSize> size;
-    nlohmann::json camera; // as capture.json has it
+    nlohmann::json camera; // as in capture.json
     double focal_px() const { return camera.at("intrinsics").at("fx"); }
 };
 
@@ -35,7 +35,7 @@ cv::Mat4f floats(const cv::Mat& halves)
     return values;
 }
 
-/// Straight at the wall's middle, or `degrees` from the side; 126 mm across.
+/// Looks at the centre of the wall from `degrees` off its normal; the view is 126 mm across.
 head::Camera before_the_wall(double degrees = 0)
 {
     const double angle = glm::radians(degrees);
@@ -85,13 +85,13 @@ stage::Stage stage_of(const scene::Scene& scene)
     return {gpu_test::device(), stage::Stage::prepare(scene)};
 }
 
-/// A round wound of `width_mm` in the middle of what the camera sees in front.
+/// A round wound of `width_mm` in the middle of the front view.
 scene::Scene disc_scene(const head::Model& model, double width_mm, std::uint32_t side = 512)
 {
     static const TemporaryFolder folder;
     cv::Mat3b photo(512, 512, cv::Vec3b(208, 162, 140));
     cv::Mat1b mask = cv::Mat1b::zeros(512, 512);
-    for (int y = 0; y < 512; ++y) // by the pixels' middles: cv::circle's is half a pixel too wide
+    for (int y = 0; y < 512; ++y) // by pixel centres: cv::circle is half a pixel too wide
         for (int x = 0; x < 512; ++x)
             mask(y, x) = std::hypot(x - 255.5, y - 255.5) < 100 ? 255 : 0;
     photo.setTo(cv::Vec3b(140, 40, 36), mask);
@@ -136,7 +136,7 @@ TEST_F(Labels, OnAWallPixelsAndSurfaceAgreeWithTheDisc)
     EXPECT_LT(day.size[0].volume_mm3, day.size[0].deepest_mm * disc_mm2(40));
 }
 
-TEST_F(Labels, SeenFromTheSideTheSurfaceStaysAndThePixelsShrink)
+TEST_F(Labels, FromTheSideTheSurfaceIsUnchangedAndThePixelsAreFewer)
 {
     const stage::Stage stage = stage_of(disc_scene(small::wall({.6f, .4f, .3f}), 40));
     const Labelled day = labelled(stage, 0, before_the_wall(60));
@@ -155,13 +155,13 @@ TEST_F(Labels, OnARoundHeadTheSurfaceIsLargerThanItsPicture)
     const double pictured = double(day.visible[0].bed_px) * mm_per_px * mm_per_px;
     EXPECT_GT(day.size[0].bed_mm2, 1.05 * disc_mm2(70)); // the flat disc is projected onto a curved head
     EXPECT_GT(day.size[0].bed_mm2, 1.1 * pictured);
-    // All of it is seen, up to the fading flanks: the two ways of measuring meet.
+    // The whole wound is visible except for its fading flanks, so both ways of measuring agree.
     EXPECT_NEAR(day.visible[0].bed_mm2 / day.size[0].bed_mm2, 1, .02);
 }
 
 TEST_F(Labels, AnalyticSurfaceOfASphericalCapIsFound)
 {
-    // A height field z = R - sqrt(R^2 - r^2) seen as the patch sees it: the cap over a disc of radius a has
+    // A height field z = sqrt(R^2 - r^2) - R over the plane of the patch: the cap over a disc of radius a has
     // the area 2 pi R (R - sqrt(R^2 - a^2)).
     head::Model model = small::wall({.6f, .4f, .3f});
     constexpr double radius = .2;
@@ -181,7 +181,7 @@ TEST_F(Labels, AnalyticSurfaceOfASphericalCapIsFound)
                 sum += surface(y, x);
     const double exact = 2e6 * std::numbers::pi * radius * (radius - std::sqrt(radius * radius - .0025));
     EXPECT_NEAR(sum / exact, 1, .003);
-    EXPECT_GT(exact, 1.01e6 * std::numbers::pi * .0025); // and the flat disc would not pass
+    EXPECT_GT(exact, 1.01e6 * std::numbers::pi * .0025); // so the area of the flat disc would fail
 }
 
 TEST_F(Labels, EveryTexelOfAWallIsCountedOnce)
@@ -215,10 +215,10 @@ TEST_F(Labels, TheCameraMatrixPutsKnownPointsOnTheirPixels)
     const glm::dvec3 centre = rotation * stage.loaded().wounds[0].anchor.centre + translation;
     const glm::dvec2 at = focal * glm::dvec2(centre) / centre.z + principal;
     const cv::Moments moments = cv::moments(day.maps.wounds == 1, true);
-    EXPECT_NEAR(at.x, moments.m10 / moments.m00 + .5, 1.5); // a pixel's middle is half a pixel further
+    EXPECT_NEAR(at.x, moments.m10 / moments.m00 + .5, 1.5); // pixel centres are at + .5
     EXPECT_NEAR(at.y, moments.m01 / moments.m00 + .5, 1.5);
     EXPECT_NEAR(day.maps.distance_mm(int(at.y), int(at.x)), 1e3 * centre.z, .5);
-    // Any pixel, taken back into the world by its distance, lies on the head.
+    // A pixel, unprojected by its distance, lies on the head.
     const cv::Point pixel(180, 140);
     const double z = 1e-3 * day.maps.distance_mm(pixel);
     ASSERT_GT(z, 0);
@@ -230,10 +230,10 @@ TEST_F(Labels, TheCameraMatrixPutsKnownPointsOnTheirPixels)
     EXPECT_LT(nearest, .004); // the mesh's spacing
 }
 
-TEST_F(Labels, SilhouetteIsThePicturesOwn)
+TEST_F(Labels, SilhouetteEqualsThatOfThePicture)
 {
     scene::Scene scene = small::scene(small::head());
-    scene.lights.clear(); // the head is black before the studio's gray
+    scene.lights.clear(); // the head is black in front of the studio's gray
     scene.shading.ambient = base::Color::all(0);
     const stage::Stage stage = stage_of(scene);
     const Labelled day = labelled(stage, 4);
@@ -255,7 +255,7 @@ TEST_F(Labels, RunOnlyWhenTheyAreRead)
     EXPECT_EQ(executor.run(graph).pass("labels").state, graph::PassState::Culled);
 }
 
-TEST_F(Labels, SeveralWoundsAreToldApartAndRingsAppear)
+TEST_F(Labels, SeveralWoundsAreDistinguishedAndRingsAppear)
 {
     scene::Scene scene = small::scene(small::head());
     scene.wounds.resize(2);
@@ -265,7 +265,7 @@ TEST_F(Labels, SeveralWoundsAreToldApartAndRingsAppear)
     const Labelled fresh = labelled(stage, 0), later = labelled(stage, 9);
     for (int i = 0; i < 2; ++i) {
         EXPECT_GT(fresh.visible[i].bed_px, 50);
-        EXPECT_GT(later.visible[i].epithelium_px, 20) << "new epithelium round what is still open";
+        EXPECT_GT(later.visible[i].epithelium_px, 20) << "new epithelium around the open bed";
         EXPECT_LT(later.visible[i].bed_px, .7 * double(fresh.visible[i].bed_px));
         const double ratio = (*stage.wounds_on(9))[i].unhealed_ratio;
         EXPECT_NEAR(later.size[i].bed_mm2 / fresh.size[i].bed_mm2 / ratio, 1, .05);
@@ -275,7 +275,7 @@ TEST_F(Labels, SeveralWoundsAreToldApartAndRingsAppear)
               fresh.visible[0].bed_px + fresh.visible[1].bed_px);
 }
 
-/// The wall with a plate of another material before the right half of it.
+/// The wall with a plate of another material in front of its right half.
 head::Model wall_with_plate(head::AlphaMode alpha)
 {
     head::Model model = small::wall({.6f, .4f, .3f});

@@ -15,8 +15,8 @@ namespace {
 
 const base::Color wall_color(.55, .36, .27);
 
-/// A wound on a wall, seen straight on so that two pixels make one texel of the patch, with nothing but C of
-/// eq. (4), in white light from everywhere.
+/// A wound on a wall, seen head-on with two pixels per texel of the patch. Draws only C of eq. (4), in white
+/// ambient light.
 struct Wall
 {
     Wall() : stage(gpu_test::device(), stage::Stage::prepare(scene()))
@@ -37,7 +37,7 @@ struct Wall
     struct Picture
     {
         cv::Mat3f radiance;
-        cv::Mat4f state; // where each pixel lies in the wound's state map
+        cv::Mat4f state; // the wound's state map, resampled to the pixels
     };
 
     Picture draw(double day)
@@ -76,13 +76,13 @@ struct Wall
     gpu::Executor executor{gpu_test::device(), gpu_test::shaders()};
 };
 
-/// 100 log10(R/G), an erythema index: shade, which dims all channels alike, does not change it.
+/// 100 log10(R/G), an erythema index; shading scales all channels alike and does not change it.
 double redness(const base::Color& color)
 {
     return 100 * std::log10(color[0] / color[1]);
 }
 
-/// How much redder than skin the covered tissue is, straight from the optics.
+/// How much redder the covered tissue is than skin, directly from the optics.
 double optical_redness(double injury_mm, double day)
 {
     const optics::TissueDay tissue =
@@ -147,7 +147,7 @@ TEST_F(NewSkin, ClosureIsNoJumpInAnyPixel)
                  last = wound::day_below(wound::Healing{}.curve, wound::smallest_scale * wound::smallest_scale);
     constexpr double step = 1;
     cv::Mat3f before;
-    double around = 0; // largest change of a pixel from day to day in the last days that are open
+    double around = 0; // largest day-to-day change of a pixel in the last days before closure
     for (double day = closed - 4.5; day < last + step; day += step) {
         const cv::Mat3f now = wall.draw(day).radiance;
         const double change = before.empty() ? 0 : cv::norm(before, now, cv::NORM_INF);
@@ -171,7 +171,7 @@ TEST_F(NewSkin, ClosureIsNoJumpInTheMeanOfAnyZone)
     std::array<cv::Mat3f, days.size()> seen;
     for (std::size_t i = 0; i < days.size(); ++i)
         seen[i] = wall.draw(days[i]).radiance;
-    std::vector<cv::Mat1f> state; // 2: coverage of the bed, 3: of what is inside the border
+    std::vector<cv::Mat1f> state; // 2: coverage of the bed, 3: of the area inside the border
     cv::split(wall.draw(closed).state, state);
     const std::array zones{std::pair("rim", cv::Mat1b(state[3] < .01)),
                            std::pair("ring", cv::Mat1b((state[3] > .99) & (state[2] < .01))),
@@ -181,9 +181,8 @@ TEST_F(NewSkin, ClosureIsNoJumpInTheMeanOfAnyZone)
         const auto change = [&](std::size_t from, std::size_t to) {
             return cv::norm(cv::mean(seen[to] - seen[from], zone), cv::NORM_INF);
         };
-        // Twice the instant is a five-hundredth of a day: ten times that day's share of the change around is
-        // allowed.
+        // The step is 2 instants, 1/500 day: ten times that share of the daily change is allowed.
         EXPECT_LE(change(1, 2), 10 * 2 * instant * std::max(change(0, 1), change(2, 3))) << name;
-        EXPECT_GT(std::max(change(0, 1), change(2, 3)), 1e-3) << name << ": something still heals";
+        EXPECT_GT(std::max(change(0, 1), change(2, 3)), 1e-3) << name << ": the skin must still change";
     }
 }

@@ -1,4 +1,4 @@
-// A photograph with several wounds in a scene: all of them, laid out on the head as they lie in the picture.
+// A photograph with several wounds in a scene: all wounds are placed on the head as in the photograph.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -118,7 +118,7 @@ TEST_F(SeveralWounds, FollowTheHeadsSurface)
     EXPECT_GT(glm::dot(second.down, first.down), .9);
 }
 
-TEST_F(SeveralWounds, AreAllSeenEachAtItsPlace)
+TEST_F(SeveralWounds, AreAllVisibleAtTheirPositions)
 {
     scene::Scene scene = small::scene(small::wall({.55F, .36F, .27F}));
     scene.wounds = {wound_of({{{110, 150}, 30}, {{200, 150}, 15}})};
@@ -142,7 +142,7 @@ TEST_F(SeveralWounds, AreAllSeenEachAtItsPlace)
     EXPECT_LT(redness(-90 * mm * 1e-3), 1.7) << "skin where no wound is";
 }
 
-TEST_F(SeveralWounds, BeyondWhatASceneHoldsAreRefused)
+TEST_F(SeveralWounds, MoreThanASceneHoldsAreRefused)
 {
     scene::Scene scene = small::scene(small::wall({.55F, .36F, .27F}));
     std::vector<Disc> discs;
@@ -157,7 +157,7 @@ TEST_F(SeveralWounds, BeyondWhatASceneHoldsAreRefused)
     scene.wounds[0].place = glm::dvec3(0);
     scene.wounds[0].width_mm = 5;
     EXPECT_EQ(refusal(scene), "accepted");
-    scene.wounds[0].width_mm = 60; // the others lie beside the wall
+    scene.wounds[0].width_mm = 60; // the other wounds lie outside the wall
     EXPECT_THAT(refusal(scene), AllOf(HasSubstr("component"), HasSubstr("no skin"), HasSubstr("width_mm")));
 }
 

@@ -1,5 +1,5 @@
-// A stage that is given one scene after another: it runs only what the difference reaches, shows at once what
-// is at hand, and in the end is what a new stage of the same scene would be.
+// A stage that gets one scene after another: it reruns only what the difference affects, shows at once what
+// is ready, and finally equals a new stage of the same scene.
 #include <fstream>
 #include <gmock/gmock.h>
 
@@ -70,7 +70,7 @@ TEST_F(StageTest, RunsNothingWhenTheSceneIsTheSame)
     EXPECT_THAT(window.ran(), testing::IsEmpty());
 }
 
-TEST_F(StageTest, RunsOnlyWhatADifferenceReaches)
+TEST_F(StageTest, RerunsOnlyPassesThatADifferenceAffects)
 {
     Window window(small::scene(small::head()));
     window.ran();
@@ -94,7 +94,7 @@ TEST_F(StageTest, RunsOnlyWhatADifferenceReaches)
                 UnorderedElementsAre("forward", "tonemap"));
 }
 
-TEST_F(StageTest, ShowsAMovedWoundAtOnceAndInTheEndAsIfItHadAlwaysBeenThere)
+TEST_F(StageTest, ShowsAMovedWoundAtOnceAndFinallyEqualsANewStage)
 {
     const scene::Scene scene = small::scene(small::head());
     Window window(scene);
@@ -102,7 +102,7 @@ TEST_F(StageTest, ShowsAMovedWoundAtOnceAndInTheEndAsIfItHadAlwaysBeenThere)
     window.stage.update(moved(scene));
     EXPECT_TRUE(window.stage.pending());
     EXPECT_THAT(window.ran(), UnorderedElementsAre("forward", "tonemap"))
-        << "neither the wound's maps nor the shadow";
+        << "the wound's maps and the shadow are unchanged";
     EXPECT_GT(largest_difference(window.picture(), before), 30) << "the wound is elsewhere";
 
     window.stage.wait_until_complete();
@@ -111,17 +111,17 @@ TEST_F(StageTest, ShowsAMovedWoundAtOnceAndInTheEndAsIfItHadAlwaysBeenThere)
     EXPECT_EQ(largest_difference(window.picture(), fresh.picture()), 0);
 
     window.stage.update(scene); // undo
-    EXPECT_FALSE(window.stage.pending()) << "what was ready still is";
+    EXPECT_FALSE(window.stage.pending()) << "the previous place is still loaded";
     EXPECT_EQ(largest_difference(window.picture(), before), 0);
 }
 
-TEST_F(StageTest, ALongDragIsUndoneAtOnceAndEndsAsIfTheWoundHadAlwaysBeenThere)
+TEST_F(StageTest, ALongDragIsUndoneAtOnceAndFinallyEqualsANewStage)
 {
     const scene::Scene scene = small::scene(small::head());
     Window window(scene);
     const cv::Mat4b before = window.picture();
     scene::Scene dragged = scene;
-    for (int i = 0; i < 40; ++i) { // more places than a loader remembers
+    for (int i = 0; i < 40; ++i) { // more places than a loader keeps
         dragged.wounds[0].place = head::FacePoint{.3 - .005 * i, -.15};
         window.stage.update(dragged, true);
         EXPECT_TRUE(window.stage.pending());
@@ -135,7 +135,7 @@ TEST_F(StageTest, ALongDragIsUndoneAtOnceAndEndsAsIfTheWoundHadAlwaysBeenThere)
     EXPECT_EQ(largest_difference(window.picture(), before), 0);
 }
 
-TEST_F(StageTest, WidthRollDepthAndHealingEndAsInANewStage)
+TEST_F(StageTest, ChangesOfWidthRollDepthAndHealingFinallyEqualANewStage)
 {
     scene::Scene scene = small::scene(small::head());
     Window window(scene);
@@ -150,7 +150,7 @@ TEST_F(StageTest, WidthRollDepthAndHealingEndAsInANewStage)
     EXPECT_EQ(largest_difference(window.picture(), fresh.picture()), 0);
 }
 
-TEST_F(StageTest, WoundsComeAndGo)
+TEST_F(StageTest, WoundsCanBeAddedAndRemoved)
 {
     const scene::Scene one = small::scene(small::head());
     scene::Scene two = one;
@@ -178,7 +178,7 @@ TEST_F(StageTest, WoundsComeAndGo)
     EXPECT_EQ(largest_difference(window.picture(), before), 0);
 }
 
-TEST_F(StageTest, AnotherHeadTakesThePlaceOfTheOldOneWhenItIsReady)
+TEST_F(StageTest, AnotherHeadReplacesTheOldOneWhenItIsReady)
 {
     const scene::Scene scene = small::scene(small::head());
     scene::Scene wall = scene;
@@ -193,7 +193,7 @@ TEST_F(StageTest, AnotherHeadTakesThePlaceOfTheOldOneWhenItIsReady)
     EXPECT_EQ(largest_difference(window.picture(), fresh.picture()), 0);
 }
 
-TEST_F(StageTest, ErrorsLeaveItAsItWas)
+TEST_F(StageTest, ErrorsLeaveTheStageUnchanged)
 {
     const TemporaryFolder folder;
     const scene::Scene good = small::scene(small::head());
@@ -204,7 +204,7 @@ TEST_F(StageTest, ErrorsLeaveItAsItWas)
     std::ofstream(folder / "broken.json") << "{";
     const auto error = [&](const auto& edit) -> std::string {
         scene::Scene bad = good;
-        bad.lights[0].intensity = 9; // nothing of a refused scene is shown
+        bad.lights[0].intensity = 9; // no part of a refused scene may be shown
         edit(bad);
         try {
             window.stage.update(bad);

@@ -1,5 +1,5 @@
-// Photographs of one or more generated wounds, for tests: on skin that fills the picture or on a limb before
-// a background, in uneven light, with noise; the masks are known.
+// Photographs of one or more generated wounds, for tests: on skin that fills the picture or on a limb in
+// front of a background, in uneven light, with noise and a known mask.
 #pragma once
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -14,7 +14,7 @@ namespace testing_wounds {
 struct PlacedWound
 {
     wound::SyntheticWound wound;
-    cv::Point at; // pixel of the middle
+    cv::Point at; // centre in the picture, pixels
     int side = 0; // of the generated picture, pixels
     cv::Vec3d tint{1, 1, 1};
 };
@@ -23,7 +23,7 @@ struct Setting
 {
     cv::Size size{640, 480};
     cv::Vec3b skin{212, 164, 140};
-    std::optional<cv::Vec3b> background; // a limb stands before it
+    std::optional<cv::Vec3b> background; // if set, the skin is a limb in front of it
     double slant = .2;                   // of the limb's axis from the vertical, px per px
     double shading = .3;                 // relative fall of light across the picture
     double noise = 4;

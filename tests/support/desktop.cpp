@@ -27,7 +27,7 @@ std::string text_of(const std::filesystem::path& file)
     return text.str();
 }
 
-/// Asks now and then until the answer is yes. A generous limit: on a busy machine everything takes long.
+/// Polls until `done` returns true. The limit is generous because a busy machine is slow.
 bool wait_for(const std::function<bool()>& done, double seconds = 120)
 {
     const auto limit = Clock::now() + std::chrono::duration<double>(seconds);
@@ -53,7 +53,7 @@ std::vector<char*> pointers(std::vector<std::string>& words)
 Process::Process(const std::vector<std::string>& words, const std::vector<std::string>& environment,
                  const std::filesystem::path& out, const std::filesystem::path& err)
 {
-    std::vector<std::string> all{"env"}; // finds the program in PATH, too
+    std::vector<std::string> all{"env"}; // also finds the program in PATH
     all.insert(all.end(), environment.begin(), environment.end());
     all.insert(all.end(), words.begin(), words.end());
     const std::vector<char*> arguments = pointers(all);
@@ -117,8 +117,7 @@ double Process::cpu_seconds() const
 
 Desktop::Desktop()
 {
-    // The server chooses a free display and writes its number to the file descriptor, here its standard
-    // output.
+    // The server chooses a free display and writes its number to file descriptor 1, its standard output.
     server_ = std::make_unique<Process>(
         std::vector<std::string>{"Xvfb", "-displayfd", "1", "-screen", "0", "1600x1000x24", "-nolisten",
                                  "tcp", "-noreset", "-fbdir", folder_.path().string()},
@@ -131,8 +130,7 @@ Desktop::Desktop()
     display_ = fmt::format(":{}", std::stoi(number));
 }
 
-/// The server keeps its screen in a file of the format XWD: a header of big-endian words, a table of colours,
-/// pixels.
+/// Xvfb keeps the screen in a file in XWD format: a header of big-endian words, a colour table, the pixels.
 cv::Mat3b Desktop::picture() const
 {
     const std::string file = text_of(folder_ / "Xvfb_screen0");
@@ -152,14 +150,14 @@ cv::Mat3b Desktop::picture() const
     return rgb;
 }
 
-void Desktop::user(const std::vector<std::string>& does) const
+void Desktop::xdotool(const std::vector<std::string>& arguments) const
 {
     std::vector<std::string> words{"xdotool"};
-    words.insert(words.end(), does.begin(), does.end());
+    words.insert(words.end(), arguments.begin(), arguments.end());
     Process tool(words, {"DISPLAY=" + display_}, folder_ / "tool_out", folder_ / "tool_err");
     if (tool.wait() != 0)
         throw std::runtime_error(
-            fmt::format("xdotool {}: {}", fmt::join(does, " "), text_of(folder_ / "tool_err")));
+            fmt::format("xdotool {}: {}", fmt::join(arguments, " "), text_of(folder_ / "tool_err")));
 }
 
 Demo::Demo(const Desktop& desktop, std::vector<std::string> arguments)
@@ -188,7 +186,7 @@ nlohmann::json Demo::idle(const std::function<bool(const nlohmann::json&)>& want
     nlohmann::json found;
     std::string last;
     const bool done = wait_for([&] {
-        const bool alive = process_->running(); // asked first: what it wrote before its end is read
+        const bool alive = process_->running(); // first, so that the last events are read
         std::istringstream lines(text_of(folder_ / "events"));
         std::string line;
         for (std::size_t i = 0; std::getline(lines, line) && !lines.eof(); ++i) {
@@ -207,7 +205,7 @@ nlohmann::json Demo::idle(const std::function<bool(const nlohmann::json&)>& want
         return false;
     });
     if (!done)
-        throw std::runtime_error("waited in vain for " + what + "; last: " + last);
+        throw std::runtime_error("timed out waiting for " + what + "; last: " + last);
     return found;
 }
 

@@ -1,6 +1,5 @@
-// A desktop without a screen (Xvfb) and a program on it that is driven as its user would: mouse and keys by
-// xdotool, pictures of the screen, and the program's own word on what it has done, so that nothing waits for
-// a time to pass.
+// Runs the program on a virtual X server (Xvfb). xdotool sends mouse and key events; tests look at pictures
+// of the screen and wait for the program's own events, never for a fixed time.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -15,14 +14,14 @@
 class Process
 {
   public:
-    /// `environment`: VARIABLE=value, added to the test's own. What it prints goes to files.
+    /// `environment`: VARIABLE=value, added to the variables of the test. `out`, `err`: files for its output.
     Process(const std::vector<std::string>& words, const std::vector<std::string>& environment,
             const std::filesystem::path& out, const std::filesystem::path& err);
     ~Process();
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
 
-    /// Waits for its end; its exit code, 128 + signal when one ended it, -1 after too long.
+    /// Waits for the process to end. Returns its exit code, 128 + the signal that ended it, or -1 on timeout.
     int wait(double seconds = 120);
     void kill();
     bool running() const;
@@ -41,10 +40,10 @@ class Desktop
     Desktop();
 
     const std::string& display() const { return display_; }
-    /// Of the screen, RGB.
+    /// The screen, RGB.
     cv::Mat3b picture() const;
-    /// As the user: {"mousemove", "10", "20", "click", "1"}. Throws std::runtime_error when it fails.
-    void user(const std::vector<std::string>& does) const;
+    /// Runs xdotool, e.g. {"mousemove", "10", "20", "click", "1"}. Throws std::runtime_error when it fails.
+    void xdotool(const std::vector<std::string>& arguments) const;
     void shut_down() { server_->kill(); }
 
   private:
@@ -59,8 +58,8 @@ class Demo
   public:
     Demo(const Desktop& desktop, std::vector<std::string> arguments);
 
-    /// The first "idle" event of the program's, not yet returned, that is as wanted: nothing is left to be
-    /// drawn. Throws std::runtime_error, with the last event, after too long or when the program ends.
+    /// Waits for the next "idle" event (nothing is left to draw) that `wanted` accepts. Throws
+    /// std::runtime_error on timeout, with the last event, or when the program ends.
     nlohmann::json idle(const std::function<bool(const nlohmann::json&)>& wanted, const std::string& what);
     nlohmann::json idle();
     Process& process() { return *process_; }
@@ -69,5 +68,5 @@ class Demo
   private:
     TemporaryFolder folder_;
     std::unique_ptr<Process> process_;
-    std::size_t read_ = 0; // lines of its events
+    std::size_t read_ = 0; // event lines read so far
 };

@@ -1,9 +1,9 @@
-// A disk without room, for tests of what is written.
+// Simulates a full disk, for tests of writing files.
 #pragma once
 #include <csignal>
 #include <sys/resource.h>
 
-/// No file of this process grows beyond so many bytes: what a full disk does to a write.
+/// Limits the files that this process writes to `bytes`; longer writes fail as on a full disk.
 class FullDisk
 {
   public:

@@ -20,7 +20,7 @@ class GltfDocument
                 {"bufferViews", nlohmann::json::array()}};
     }
 
-    /// A square in the plane z = 0 that looks along +z: corners (0,0), (1,0), (1,1), (0,1); two triangles.
+    /// A square in the plane z = 0 that faces +z: corners (0,0), (1,0), (1,1), (0,1); two triangles.
     static GltfDocument square()
     {
         GltfDocument document;

@@ -1,8 +1,7 @@
 #include "tests/support/gpu.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
-// The synchronisation validation of the 1.3.239 layer leaves
-// its command buffers' states behind, each holding the other.
+// Synchronisation validation of the 1.3.239 layer leaks command buffer states that refer to each other.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions()
 {

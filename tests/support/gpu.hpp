@@ -1,5 +1,5 @@
 // The device that all GPU tests of a process share, with validation and synchronisation validation on, and
-// the fixture that turns any of its messages into a failure.
+// the fixture that turns every validation message into a failure.
 #pragma once
 #include "engine/gpu/device.hpp"
 #include "engine/gpu/executor.hpp"
@@ -15,8 +15,8 @@ std::span<const EmbeddedShader> test_shaders(); // of tests/shaders/, generated
 
 namespace gpu_test {
 
-/// Made on first use. Throws base::InputError without a
-/// Vulkan device or the validation layer: no test is skipped.
+/// Created on first use. Throws base::InputError when there is no Vulkan device or no validation layer, so
+/// that no test is skipped.
 gpu::Device& device();
 
 /// The shaders of shaders/ and of tests/shaders/.

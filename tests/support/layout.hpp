@@ -1,5 +1,4 @@
-// Compares a C++ struct with the block or struct of the
-// same members in a compiled shader: names, offsets, sizes.
+// Compares a C++ struct with a block or struct in a compiled shader: names, offsets and sizes of members.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +13,7 @@ struct Member
     std::size_t offset, size;
 };
 
-/// `gpu_test::Member` of a C++ struct, to be listed in the order of declaration.
+/// A `gpu_test::Member` for one member of a C++ struct; list them in the order of declaration.
 #define CICATRIX_MEMBER(type, member)                                                                        \
     gpu_test::Member                                                                                         \
     {                                                                                                        \

@@ -6,11 +6,11 @@
 
 struct Outcome
 {
-    int code = -1;        // exit code; 128 + signal when one ended it
+    int code = -1;        // exit code, or 128 + the signal that ended it
     std::string out, err; // all it printed
 };
 
-/// `environment`: VARIABLE=value, added to the test's own.
+/// `environment`: VARIABLE=value, added to the variables of the test.
 Outcome run_program(const std::vector<std::string>& arguments,
                     const std::vector<std::string>& environment = {}, const std::string& name = "cicatrix");
 

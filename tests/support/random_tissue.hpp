@@ -1,4 +1,4 @@
-// Random layered tissue over the whole range that the models promise to bear, and the corners of that range.
+// Random layered tissue over the whole range that the models must handle, and the corners of that range.
 #pragma once
 #include <cmath>
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ inline constexpr optics::ReflectanceModel bounded[] = {
     optics::ReflectanceModel::Calibrated, optics::ReflectanceModel::Clamped,
     optics::ReflectanceModel::Exponential};
 
-/// What a layer can lack; none may make a step where it vanishes.
+/// Quantities of a layer that may be zero; results must be continuous where each one goes to zero.
 inline constexpr double optics::LayerOptics::*coefficients[] = {
     &optics::LayerOptics::sigma_a, &optics::LayerOptics::sigma_s_reduced, &optics::LayerOptics::thickness_mm};
 
@@ -72,8 +72,8 @@ class Draw
         stack.layers.insert(at, upper);
         return stack;
     }
-    /// The stack with a layer without thickness above one of its own; of the same index, since any other
-    /// would make a boundary.
+    /// The stack with a layer of zero thickness added above one of its layers. Both have the same refractive
+    /// index, since a difference would add a boundary.
     optics::Stack with_empty_layer(optics::Stack stack)
     {
         const std::size_t at = place(stack);
@@ -88,8 +88,8 @@ class Draw
     std::mt19937 random_;
 };
 
-/// One and two layers between media of every kind, with everything at an end of its range, at the least
-/// number above zero (`tiny`), or just beside a special case.
+/// One and two layers between several media, with each quantity at an end of its range, at the smallest
+/// positive number (`tiny`), or close to a special case.
 inline std::vector<optics::Stack> corners(double tiny)
 {
     std::vector<optics::Stack> result;

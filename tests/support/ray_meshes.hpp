@@ -1,4 +1,4 @@
-// Meshes that try a ray engine, and what looking at every triangle finds in them.
+// Test meshes for ray intersection, and a brute-force reference that tests every triangle.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -41,7 +41,7 @@ struct Ray
     dvec3 origin, direction;
 };
 
-/// Moeller & Trumbore 1997, as the head's surface was looked at before there was a hierarchy.
+/// Moeller & Trumbore 1997, as used for the head's surface before the hierarchy existed.
 inline std::optional<Hit> intersect(const Mesh& mesh, std::uint32_t first, const Ray& ray, Facing facing)
 {
     const dvec3 a = mesh.corner(first), ab = mesh.corner(first + 1) - a, ac = mesh.corner(first + 2) - a;
@@ -58,8 +58,8 @@ inline std::optional<Hit> intersect(const Mesh& mesh, std::uint32_t first, const
     return Hit{first, 0, 0, det > 0, glm::dot(ac, q) / det, u, v};
 }
 
-inline std::optional<Hit> nearest_of_all(const Mesh& mesh, const Ray& ray, double tmin, double tmax,
-                                         Facing facing)
+inline std::optional<Hit> nearest_by_brute_force(const Mesh& mesh, const Ray& ray, double tmin, double tmax,
+                                                 Facing facing)
 {
     std::optional<Hit> nearest;
     for (std::uint32_t i = 0; i < mesh.indices.size(); i += 3)
@@ -78,7 +78,7 @@ inline bool same(const std::optional<Hit>& a, const std::optional<Hit>& b)
            a->v == b->v;
 }
 
-/// Counts rays for which the hierarchy and all triangles disagree, and rays that hit.
+/// Counts the rays that hit and the rays for which the hierarchy and brute force disagree.
 struct Comparison
 {
     int rays = 0, hits = 0, different = 0;
@@ -86,13 +86,13 @@ struct Comparison
     void add(const Mesh& mesh, const Bvh& bvh, const Ray& ray, double tmin = 0, double tmax = infinity)
     {
         for (const Facing facing : {Facing::Both, Facing::Front}) {
-            const auto expected = nearest_of_all(mesh, ray, tmin, tmax, facing);
+            const auto expected = nearest_by_brute_force(mesh, ray, tmin, tmax, facing);
             ++rays;
             hits += expected.has_value();
             different += !same(bvh.nearest(ray.origin, ray.direction, tmin, tmax, facing), expected);
         }
         different += bvh.any(ray.origin, ray.direction, tmax) !=
-                     nearest_of_all(mesh, ray, 0, tmax, Facing::Both).has_value();
+                     nearest_by_brute_force(mesh, ray, 0, tmax, Facing::Both).has_value();
     }
 };
 
@@ -111,7 +111,7 @@ class Dice
     std::mt19937 engine_{7};
 };
 
-/// Triangles of all sizes, needles among them.
+/// Triangles of all sizes, some of them needles.
 inline Mesh soup(int triangles)
 {
     Dice dice;
@@ -125,7 +125,7 @@ inline Mesh soup(int triangles)
     return mesh;
 }
 
-/// A closed sphere about the origin, 10 cm, seen from outside counter-clockwise, neighbours sharing vertices.
+/// A closed sphere about the origin, radius 10 cm, counter-clockwise from outside, vertices shared.
 inline Mesh sphere(std::uint32_t rings = 24, std::uint32_t sectors = 48)
 {
     Mesh mesh;

@@ -45,7 +45,7 @@ void add_grid_triangles(head::Model& model, std::uint32_t columns, std::uint32_t
     head::update_bounds(model);
 }
 
-/// Skin with large soft blotches, so that the albedo map is seen to be used.
+/// Skin with large soft blotches, so that a test can see whether the albedo map is used.
 cv::Mat4b blotched_skin()
 {
     cv::Mat4b color(64, 128);

@@ -1,4 +1,4 @@
-// A folder that lives as long as a test.
+// A temporary folder, deleted with its object.
 #pragma once
 #include <cstdlib>
 #include <filesystem>

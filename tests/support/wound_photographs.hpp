@@ -1,4 +1,4 @@
-// Drawn photographs of wounds on skin, for tests: noise, uneven light, a known mask.
+// Synthetic photographs of wounds on skin, for tests: noise, uneven light, a known mask.
 #pragma once
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -8,7 +8,7 @@
 
 namespace testing_wounds {
 
-/// Skin with a red, mottled wound inside `outline(dx, dy) < 1` about `center`; pixels.
+/// Skin with a red, mottled wound where `outline(dx, dy) < 1`; (dx, dy) is the offset from `center`, pixels.
 template <typename Outline>
 wound::Photograph photograph(cv::Size size, cv::Point2d center, Outline outline,
                              const cv::Vec3d& bed = {150, 45, 40})

@@ -1,4 +1,4 @@
-// The steps that bake the default head, on shapes whose answer is known; the package itself is not needed.
+// The steps that bake the default head, on shapes with known answers; the package itself is not needed.
 #include <cmath>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -47,8 +47,8 @@ QuadMesh cube()
     return mesh;
 }
 
-/// `columns` x `rows` unit squares from (left, bottom) on, in the plane z; one chart whose coordinates are x
-/// and y.
+/// `columns` x `rows` squares from the lower left `corner` on, parallel to z = 0; one chart with x and y as
+/// texture coordinates.
 QuadMesh sheet(int columns, int rows, double size, glm::dvec3 corner)
 {
     QuadMesh mesh;
@@ -109,7 +109,7 @@ TEST(TextureCharts, AreNumberedByConnection)
     EXPECT_EQ(head_tool::texture_charts(sheet(2, 1, 1.0, {0, 0, 0})), (std::vector<std::uint32_t>{0, 0}));
 }
 
-TEST(Bust, IsCutWhereItsBaseLiesAndNeighboursShareTheCut)
+TEST(Bust, IsCutAtItsBaseAndNeighboursShareTheCut)
 {
     const head_tool::CutMesh bust = head_tool::cut_bust(sheet(2, 40, 0.1, {-0.1, 4.8, 0.3}));
     ASSERT_FALSE(bust.head.empty());
@@ -125,7 +125,7 @@ TEST(Bust, IsCutWhereItsBaseLiesAndNeighboursShareTheCut)
             places.emplace(p.x, p.y);
             vertices.insert(corner.vertex);
             if (p.y < 8.7)
-            { // the coordinates of the sheet are its places, but refinement rounds its outer corners
+            { // texture coordinates equal positions, except that refinement rounds the outer corners
                 EXPECT_TRUE(near({bust.uvs[corner.uv], 0.3}, p, 1e-9));
             }
         }
@@ -135,7 +135,7 @@ TEST(Bust, IsCutWhereItsBaseLiesAndNeighboursShareTheCut)
     EXPECT_EQ(places.size(), vertices.size());
 }
 
-TEST(SkinAtlas, HoldsBothChartsApartUndistortedAndUnmirrored)
+TEST(SkinAtlas, KeepsBothChartsSeparateUndistortedAndUnmirrored)
 {
     head_tool::CutMesh bust;
     bust.uvs = {{0.64, 0.15}, {0.99, 0.15}, {0.99, 0.82}, {0.1, 0.85}, {0.6, 0.85}, {0.6, 0.97}};
@@ -148,13 +148,13 @@ TEST(SkinAtlas, HoldsBothChartsApartUndistortedAndUnmirrored)
         EXPECT_TRUE(uv.x > 0 && uv.x < 1 && uv.y > 0 && uv.y < 1);
         EXPECT_EQ(uv.x < atlas.border, i < 3);
     }
-    // v runs up in the figure and down in ours: an unmirrored map has a negative determinant.
+    // v points up in the figure and down in the atlas: an unmirrored map has a negative determinant.
     const double head = glm::determinant(atlas.head.linear), torso = glm::determinant(atlas.bust.linear);
     EXPECT_LT(head, 0);
     EXPECT_NEAR(torso, head, 1e-9);
 }
 
-TEST(SkinAtlas, PaintsWhatThePlacementShowsAndFillsTheBlank)
+TEST(SkinAtlas, PaintsThroughThePlacementAndFillsBlankTexels)
 {
     head_tool::SkinAtlas atlas;
     atlas.size = 64;
@@ -207,7 +207,7 @@ TEST(Occlusion, InsideAClosedBoxIsComplete)
 TEST(Rasterise, CoversEveryTexelOfASquareAndInterpolatesLinearly)
 {
     const std::vector<glm::vec2> uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    const std::vector<std::uint32_t> indices = {0, 1, 2, 0, 3, 2}; // the second triangle the other way round
+    const std::vector<std::uint32_t> indices = {0, 1, 2, 0, 3, 2}; // the second one is wound the other way
     const std::vector<glm::vec3> values = {{0, 0, 5}, {1, 0, 5}, {1, 1, 5}, {0, 1, 5}};
     cv::Mat1b covered;
     const cv::Mat3f texture = head_tool::rasterise(uvs, indices, values, {32, 16}, covered);
@@ -275,7 +275,7 @@ TEST(SkinDetail, ModulatesTheColourByAFewPercentAndIsRepeatable)
     EXPECT_EQ(mean[3], 255);
 }
 
-TEST(SkinDetail, ReliefIsUnitNormalsThatLeanNoWayOnAverage)
+TEST(SkinDetail, ReliefNormalsHaveUnitLengthAndNoMeanTilt)
 {
     const cv::Mat3b painted(256, 256, cv::Vec3b(200, 150, 125));
     const head_tool::SkinPictures skin = head_tool::detail_skin(painted, flat_cheek());
@@ -288,10 +288,10 @@ TEST(SkinDetail, ReliefIsUnitNormalsThatLeanNoWayOnAverage)
         EXPECT_NEAR(cv::norm(cv::Vec3d(texel) / 127.5 - cv::Vec3d(1, 1, 1)), 1.0, 0.02);
 }
 
-TEST(SkinDetail, APitOfThePaintLeansItsNormalsInwards)
+TEST(SkinDetail, ADarkSpotIsAPitWithNormalsTiltedInwards)
 {
-    // A dark spot is a pit. Right of its middle the ground rises to the right, so the normal leans left;
-    // above it, downwards.
+    // Right of the middle of a pit the ground rises to the right, so the normal tilts left; above the middle,
+    // downwards.
     cv::Mat3b painted(256, 256, cv::Vec3b(200, 150, 125));
     cv::circle(painted, {128, 128}, 4, cv::Scalar(120, 80, 60), cv::FILLED);
     const cv::Mat3b plain(256, 256, cv::Vec3b(200, 150, 125));
@@ -303,7 +303,7 @@ TEST(SkinDetail, APitOfThePaintLeansItsNormalsInwards)
     EXPECT_GT(with(132, 128)[1], without(132, 128)[1] + 5);
 }
 
-TEST(BakeHead, NamesTheFileThatAPackageLacks)
+TEST(BakeHead, NamesTheMissingFileOfAPackage)
 {
     const TemporaryFolder folder;
     try {

@@ -73,7 +73,7 @@ TEST(ReflectanceTable, SamplingInterpolatesWithinThePromisedError)
                 ++count;
             }
     EXPECT_LT(std::sqrt(sum / count / 3), .004);
-    // Exact on the nodes, those included where the two parts meet.
+    // Exact at the nodes, including those where the two parts meet.
     for (const auto& [part, day, row] : {std::tuple(shared::LUT_OPEN, 1e9, 63u),
                                          {shared::LUT_COVERED, 0., 64u},
                                          {shared::LUT_COVERED, 1e9, 127u}})
@@ -84,7 +84,7 @@ TEST(ReflectanceTable, SamplingInterpolatesWithinThePromisedError)
     }
 }
 
-TEST_F(TableCache, IsReadBackAndKeyedByAllThatMatters)
+TEST_F(TableCache, IsReadBackAndKeyedByAllInputs)
 {
     std::vector<optics::TissueDay> rows(4, optics::restored_skin(optics::table1(), 1));
     const cv::Mat3f table = wound::cached_reflectance_table(
@@ -113,7 +113,7 @@ TEST_F(TableCache, ADamagedFileIsBakedAgain)
         EXPECT_TRUE(
             same(wound::cached_reflectance_table(path, rows, 4, optics::ReflectanceModel::TwoStream), table));
     }
-    // A folder that cannot be made costs time only.
+    // A folder that cannot be created only costs time.
     std::ofstream(path / "file") << "";
     EXPECT_TRUE(same(wound::cached_reflectance_table(path / "file" / "below", rows, 4,
                                                      optics::ReflectanceModel::TwoStream),
@@ -122,7 +122,7 @@ TEST_F(TableCache, ADamagedFileIsBakedAgain)
 
 using UploadedTable = gpu_test::Test;
 
-TEST_F(UploadedTable, IsWhatTheShaderWouldHaveBaked)
+TEST_F(UploadedTable, EqualsTheTableThatTheShaderBakes)
 {
     const std::vector<optics::TissueDay> rows =
         wound::lut_rows(optics::skin(optics::SkinTone::Medium), wound::Healing{}, 4, 60).days;
@@ -177,7 +177,7 @@ TEST_F(Commands, ReflectPrintsOneObjectWithAllFields)
     EXPECT_EQ(nlohmann::json::parse(out.str()).at("linear_rgb").size(), 3u);
 }
 
-TEST_F(Commands, AnInfiniteLayerHasNoPrintedReflectanceAndNoWoundUnderIt)
+TEST_F(Commands, AnInfiniteLayerHasNoPublishedReflectanceAndIsRefusedForWounds)
 {
     const std::string file = (path / "deep.json").string();
     std::ofstream(file) << R"({"unit":"1/mm","layers":[
@@ -236,7 +236,8 @@ TEST_F(Commands, BakeWritesTablesAndPictures)
     const int days_to_60 = base::read_rgb(path / "color_over_days.png").cols;
     options.last_day = 12;
     bake_command::bake(options, out, notes);
-    EXPECT_LT(base::read_rgb(path / "color_over_days.png").cols, days_to_60); // no day past the table's
+    EXPECT_LT(base::read_rgb(path / "color_over_days.png").cols,
+              days_to_60); // no days after the table's last
     for (const char* tissue : {"table1", "light"}) {
         options.tissue = tissue;
         options.model = optics::ReflectanceModel::Published;
@@ -257,7 +258,7 @@ TEST_F(Commands, MistakesAreNamed)
     EXPECT_THROW(base::make_folder(path / "file" / "below"), base::InputError);
 }
 
-TEST(Calibrate, FindsWhatIsBuiltIn)
+TEST(Calibrate, ReproducesTheBuiltInCalibration)
 {
     const TemporaryFolder folder;
     lab::TableOptions options;
@@ -285,10 +286,10 @@ TEST(Tables, OfEveryPresetInterpolateWithinThePromisedError)
         EXPECT_LE(errors.at(0).at(tissue).at("rms").get<double>(), .002) << tissue;
 }
 
-TEST(Compare, LadderOrdersTheModelsAsTheDocumentsSay)
+TEST(Compare, ModelsAreOrderedAsTheDocumentsSay)
 {
-    // The stacks of docs/optics.md, section 8. Adding-doubling, within .001 of the walk there, is the truth:
-    // it has no noise.
+    // The stacks of docs/optics.md, section 8. Adding-doubling is the reference: it is within .001 of the
+    // photon walk there and has no noise.
     const optics::SkinLayers stacks[] = {optics::table1(.2, 1, 4),
                                          optics::table1(.2, 4, 9),
                                          optics::layers_at(optics::restored_skin(optics::table1(), 1), .2),

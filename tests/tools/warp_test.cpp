@@ -40,16 +40,15 @@ const std::vector<Shape>& shapes()
     return all;
 }
 
-/// Area of what a backward warp shows of the inside of `border`, from fine samples of today's neighbourhood
-/// of the wound.
+/// Area in which a backward warp shows the inside of `border`, from fine samples around the wound of today.
 double warped_area(const Shape& shape, const Warp& warp)
 {
-    constexpr int mask_color = 4096, sample_count = 400, subpixel_bits = 6;
-    cv::Mat1b inside = cv::Mat1b::zeros(mask_color, mask_color);
+    constexpr int mask_size = 4096, sample_count = 400, subpixel_bits = 6;
+    cv::Mat1b inside = cv::Mat1b::zeros(mask_size, mask_size);
     std::vector<cv::Point> vertices;
     double reach = 0;
     for (cv::Point2d p : shape.border) {
-        const cv::Point2d pixel = (p + cv::Point2d(1, 1)) * (mask_color / 2) - cv::Point2d(.5, .5);
+        const cv::Point2d pixel = (p + cv::Point2d(1, 1)) * (mask_size / 2) - cv::Point2d(.5, .5);
         vertices.emplace_back(cvRound(pixel.x * (1 << subpixel_bits)), cvRound(pixel.y * (1 << subpixel_bits)));
         reach = std::max(reach, cv::norm(p - shape.centroid));
     }
@@ -61,8 +60,8 @@ double warped_area(const Shape& shape, const Warp& warp)
             for (int i = 0; i < sample_count; ++i) {
                 const cv::Point2d unit((i + .5) / sample_count * 2 - 1, (j + .5) / sample_count * 2 - 1);
                 const cv::Point2d p =
-                    (warp.apply(shape.centroid + reach * unit) + cv::Point2d(1, 1)) * (mask_color / 2);
-                if (p.x >= 0 && p.y >= 0 && p.x < mask_color && p.y < mask_color)
+                    (warp.apply(shape.centroid + reach * unit) + cv::Point2d(1, 1)) * (mask_size / 2);
+                if (p.x >= 0 && p.y >= 0 && p.x < mask_size && p.y < mask_size)
                     count[j] += inside(static_cast<int>(p.y), static_cast<int>(p.x));
             }
     });
@@ -74,7 +73,7 @@ TEST(Warp, DefaultIsTheIdentity)
     EXPECT_EQ(Warp{}.apply({.3, -.7}), cv::Point2d(.3, -.7));
 }
 
-TEST(Warp, ControlPointsAndCentroidGoWhereEquationOneSays)
+TEST(Warp, ControlPointsFollowEquationOne)
 {
     for (const Shape& shape : shapes())
         for (double r : {1.2, .6, .05})
@@ -95,7 +94,7 @@ TEST(Warp, WarpedAreaIsTheRatioOnEveryFoldFreeModel)
         { // composed: within a quarter texel of grid, tested below
             const double day0 = warped_area(shape, Warp{});
             EXPECT_NEAR(day0 / wound::signed_area(shape.border), 1,
-                        .025); // filling takes the outline's pixels too
+                        .025); // filling includes the pixels of the outline
             for (double r : {.9, .6, .4, .2, .1, .05}) {
                 const double ratio = warped_area(shape, wound::make_warp(shape.flow, r, model)) / day0;
                 EXPECT_NEAR(ratio / r, 1, .02)
@@ -145,7 +144,7 @@ TEST(Warp, GridIsWithinAQuarterTexelOfTheComposedMap)
         }
 }
 
-TEST(Warp, FrameAndCentroidStay)
+TEST(Warp, FrameAndCentroidDoNotMove)
 {
     for (const Shape& shape : shapes())
         for (double r : {1.2, .6, .05})
@@ -216,7 +215,7 @@ TEST(Warp, CoincidentAndCollinearControlPointsAreSolved)
     EXPECT_LT(cv::norm(flat.apply(line[3] * std::sqrt(.1)) - line[3]), 1e-6);
 }
 
-TEST(Warp, LadderMeasuresWhatItClaims)
+TEST(Warp, LadderMeasurementsAreConsistent)
 {
     const auto rows = lab::measure_ladder(lab::ladder_shapes().front());
     ASSERT_EQ(rows.size(), std::size(lab::warp_models) * std::size(lab::ladder_ratios));
@@ -233,7 +232,7 @@ TEST(Warp, LadderMeasuresWhatItClaims)
     EXPECT_EQ(lab::cheapest_exact(rows), WarpModel::Grid);
 }
 
-/// Rows whose numbers say where they belong.
+/// Rows with numbers that encode their ratio and model.
 std::vector<lab::LadderRow> numbered_rows()
 {
     std::vector<lab::LadderRow> rows;
@@ -251,7 +250,7 @@ std::vector<lab::LadderRow> numbered_rows()
     return rows;
 }
 
-TEST(Warp, LadderIsWrittenWhole)
+TEST(Warp, LadderIsWrittenCompletely)
 {
     const std::vector<lab::LadderRow> rows = numbered_rows();
     const std::string csv = lab::ladder_csv(rows), tables = lab::ladder_tables(rows);

@@ -1,4 +1,4 @@
-// Predicted against observed masks.
+// Comparison of predicted with observed masks.
 #include "wound/photo/agreement.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ TEST(Agreement, PredictionOfDayZeroIsTheMaskItself)
                 .03 * cv::countNonZero(photo.mask));
 }
 
-TEST(Agreement, IgnoresPlaceAndMeasuresSize)
+TEST(Agreement, IgnoresPositionAndMeasuresSize)
 {
     cv::Mat1b a = cv::Mat1b::zeros(100, 100), b = cv::Mat1b::zeros(80, 140), c = a.clone();
     cv::circle(a, {30, 30}, 20, 255, cv::FILLED);

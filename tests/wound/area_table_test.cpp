@@ -1,4 +1,4 @@
-// Tables of areas in every dialect, and hostile ones.
+// Area tables in every supported format, and malformed ones.
 #include "wound/healing/area_table.hpp"
 
 #include <gmock/gmock.h>
@@ -58,7 +58,7 @@ TEST(AreaTable, WithoutAHeaderTheFirstColumnsAreDayAndArea)
     EXPECT_THAT(read("0,8\n4,2\n")[0].ratios, ElementsAre(1, .25));
 }
 
-TEST(AreaTable, ReadersAreAveragedAndRowsThatAllImaginedLeftOut)
+TEST(AreaTable, ReadersAreAveragedAndRowsThatAllImaginedAreLeftOut)
 {
     const auto table = read("wound,day,area_reader1,edge_reader1,area_reader2,edge_reader2\n"
                             "A,0,10,seen,12,seen\n"
@@ -76,12 +76,12 @@ TEST(AreaTable, ReadersAreAveragedAndRowsThatAllImaginedLeftOut)
     EXPECT_THAT(mean.ratios, ElementsAre(1, .375));
 }
 
-TEST(AreaTable, GroupsAreNamedByTheirColumnOrTheBeginningOfTheWoundsNames)
+TEST(AreaTable, GroupsComeFromTheirColumnOrFromPrefixesOfWoundNames)
 {
     const std::string rows = "old-1,0,20,x\nold-1,4,10,x\nold-2,0,20,y\nold-2,4,16,y\n"
                              "young-1,0,8,x\nyoung-1,4,2,x\n";
     const auto named = wound::group_means(read("wound,day,area,note\n" + rows));
-    ASSERT_EQ(named.size(), 1U); // a group of one is no mean
+    ASSERT_EQ(named.size(), 1U); // a group of one wound has no mean
     EXPECT_EQ(named[0].name, "mean old");
     EXPECT_THAT(named[0].ratios, ElementsAre(1, DoubleNear(.65, 1e-12)));
     const auto column = wound::group_means(read("wound,day,area,group\n" + rows));
@@ -100,7 +100,7 @@ TEST(AreaTable, RowsLeftOutAreCounted)
     EXPECT_THAT(table[0].days, ElementsAre(0, 3));
 }
 
-TEST(AreaTable, TheMeanOfAreasGivesALargeWoundMoreSay)
+TEST(AreaTable, TheMeanOfAreasGivesALargeWoundMoreWeight)
 {
     const auto table = read("wound,day,area\na,0,30\na,4,24\nb,0,10\nb,4,2\nb,8,1\n");
     EXPECT_THAT(wound::mean_series(table, wound::MeanOf::Ratios).ratios,
@@ -109,7 +109,7 @@ TEST(AreaTable, TheMeanOfAreasGivesALargeWoundMoreSay)
                 ElementsAre(1, DoubleNear(13. / 20, 1e-12), DoubleNear(1. / 20, 1e-12)));
 }
 
-TEST(AreaTable, WeightsWeightAndZeroLeavesOut)
+TEST(AreaTable, WeightsApplyAndWeightZeroLeavesOut)
 {
     const auto table = read("day,area,weight\n0,10,1\n1,8,3\n1,4,1\n2,99,0\n");
     EXPECT_THAT(table[0].days, ElementsAre(0, 1));
@@ -117,7 +117,7 @@ TEST(AreaTable, WeightsWeightAndZeroLeavesOut)
     EXPECT_THAT(table[0].weights, ElementsAre(1, 4));
 }
 
-TEST(AreaTable, HostileTablesAreRefusedWithLineAndCure)
+TEST(AreaTable, MalformedTablesAreRefusedWithLineAndRemedy)
 {
     EXPECT_THAT(refusal(""), HasSubstr("areas.csv: the table holds no measurement"));
     EXPECT_THAT(refusal("day,area\n"), HasSubstr("no measurement"));

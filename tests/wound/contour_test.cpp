@@ -70,7 +70,7 @@ TEST(Contour, EmptyMaskIsRefused)
     EXPECT_THROW(wound::moments_of(empty), std::invalid_argument);
 }
 
-TEST(Contour, ControlPointsLieOnTheBorderAndOnALine)
+TEST(Contour, ControlPointsLieOnTheBorderAndOnAGridLine)
 {
     const cv::Point2d center(.03, -.05);
     const Polyline border = wound::border_of(disk(512, center, .45));
@@ -86,7 +86,7 @@ TEST(Contour, ControlPointsLieOnTheBorderAndOnALine)
             std::min(std::abs(cell.x - std::round(cell.x)), std::abs(cell.y - std::round(cell.y))) < 1e-6;
     }
     EXPECT_GE(on_a_line,
-              static_cast<int>(points.size()) - 16); // the others are middles of near-coincident crossings
+              static_cast<int>(points.size()) - 16); // the others are midpoints of near-coincident crossings
 }
 
 TEST(Contour, NearCoincidentCrossingsAreMerged)

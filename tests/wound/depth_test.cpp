@@ -44,11 +44,11 @@ TEST(Tissue, ThicknessFollowsPublishedOrderAndIsSymmetric)
     EXPECT_TRUE(far.dermis > .7 && far.dermis < 2 && far.subcutis > 0 && far.subcutis <= 9);
 }
 
-TEST(Tissue, HueTellsTheLayer)
+TEST(Tissue, HueGivesTheLayer)
 {
     const cv::Vec3f skin = lab(skin_rgb);
     EXPECT_LT(wound::layer_reached(skin, skin), .01);
-    EXPECT_LT(wound::layer_reached(lab({.50F, .32F, .24F}), skin), .3); // as skin varies by itself
+    EXPECT_LT(wound::layer_reached(lab({.50F, .32F, .24F}), skin), .3); // normal variation of skin
     const double blood = wound::layer_reached(lab(blood_color), skin);
     EXPECT_GT(blood, 1.5);
     const double graze = wound::layer_reached(lab({.55F, .27F, .21F}), skin);
@@ -119,7 +119,7 @@ TEST(Depth, ProfileIsTheRowThroughThePoint)
     EXPECT_EQ(wound::depth_profile(depth, {0, 9}).size(), 8U);
 }
 
-TEST(Color, SrgbGoesThereAndBack)
+TEST(Color, SrgbRoundTripIsExact)
 {
     cv::Mat3b all(16, 16);
     for (int i = 0; i < 256; ++i)

@@ -1,4 +1,4 @@
-// Fits to curves that are known, to published data, and to hostile series.
+// Fits to known curves, to published data, and to degenerate series.
 #include "wound/healing/fit.hpp"
 
 #include <cmath>
@@ -78,8 +78,8 @@ TEST(Fit, StandardErrorsCoverTheTruth)
 }
 
 // Mean ratios of the aged mice (A8) in the tracings 10.5281/zenodo.23062849 of the photographs
-// Dryad 10.25338/B84W8Q: two readers averaged, days on which both only imagined the edge left out, six
-// wounds.
+// Dryad 10.25338/B84W8Q: six wounds, two readers averaged, without the days on which both readers only
+// imagined the edge.
 TEST(Fit, AgedMiceNeedMoreThanAnExponential)
 {
     const SeriesFit found = fit(series({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15},
@@ -148,7 +148,7 @@ TEST(Fit, OneDayIsRefused)
     EXPECT_THROW(fit(series({0}, {1})), base::InputError);
 }
 
-TEST(Fit, TableOfSeveralWoundsGainsTheirMean)
+TEST(Fit, ATableOfSeveralWoundsGetsTheirMean)
 {
     AreaSeries a = sampled({.1, 1, 0, 0}, 10, 6), b = sampled({.2, 1, 0, 0}, 10, 6);
     a.name = "a";
@@ -164,7 +164,7 @@ TEST(Fit, TableOfSeveralWoundsGainsTheirMean)
     EXPECT_TRUE(json["series"][0]["models"]["exponential"]["gamma_se"].is_null());
 }
 
-/// A table as two readers write it: six wounds of two groups, noise on each, rows that both imagined far off.
+/// A table by two readers: six wounds in two groups, with noise; rows that both imagined are far off.
 std::filesystem::path table_of_two_groups()
 {
     const auto file = std::filesystem::temp_directory_path() / "cicatrix_fit_test_groups.csv";
@@ -210,7 +210,7 @@ TEST(Fit, OneTableGivesTheMeanOfEachGroupAndASceneMayNameIt)
     EXPECT_NEAR(days_apart, 2, .5);
     try {
         wound::curve_from_areas(file, "B9");
-        ADD_FAILURE() << "no such series";
+        ADD_FAILURE() << "an unknown series was accepted";
     } catch (const base::InputError& error) {
         EXPECT_NE(std::string(error.what()).find("mean A8, mean Y8, mean"), std::string::npos)
             << error.what();

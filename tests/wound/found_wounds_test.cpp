@@ -1,4 +1,4 @@
-// Wounds found in photographs that show none, one or several, composed of generated ones.
+// Segmentation of photographs composed of generated wounds: none, one or several.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ std::vector<PlacedWound> three_along_a_limb()
             placed(wound::WoundShape::Laceration, 23, {215, 130}, 200)};
 }
 
-/// Each of the wounds found is one of those drawn, and the other way round.
+/// As many wounds are found as drawn, and each drawn one overlaps a found one by more than `least` (IoU).
 void expect_alike(const cv::Mat1b& found, const cv::Mat1b& drawn, double least)
 {
     const auto parts = wound::components(found, 99), truth = wound::components(drawn, 99);
@@ -99,7 +99,7 @@ TEST(FoundWounds, AGeneratedPhotographShowsOne)
         }
 }
 
-TEST(FoundWounds, RectangleTakesThoseInsideIt)
+TEST(FoundWounds, RectangleSelectsTheWoundsInsideIt)
 {
     const auto photo = two_on_skin();
     wound::SegmentationHints hints;
@@ -111,7 +111,7 @@ TEST(FoundWounds, RectangleTakesThoseInsideIt)
     }
 }
 
-TEST(FoundWounds, SeedTakesTheOneItLiesIn)
+TEST(FoundWounds, SeedSelectsTheWoundItLiesIn)
 {
     const auto photo = two_on_skin();
     for (const cv::Mat1b& one : wound::components(photo.mask, 2)) {
@@ -122,7 +122,7 @@ TEST(FoundWounds, SeedTakesTheOneItLiesIn)
     }
 }
 
-TEST(FoundWounds, TurningAndMirroringThePhotographDoesSoToThem)
+TEST(FoundWounds, TurningAndMirroringThePhotographDoesTheSameToTheMask)
 {
     const auto photo = two_on_skin();
     const cv::Mat1b found = wound::segment(photo.srgb, {}, "p");
@@ -135,7 +135,7 @@ TEST(FoundWounds, TurningAndMirroringThePhotographDoesSoToThem)
     EXPECT_GT(wound::intersection_over_union(wound::segment(turned, {}, "p"), expected), .93);
 }
 
-TEST(FoundWounds, AreSeparatedAsThoseOfAMaskAre)
+TEST(FoundWounds, AreSeparatedLikeThoseOfAGivenMask)
 {
     const auto photo = two_on_skin();
     const std::vector<wound::WoundPart> given = wound::separate(photo, {}),

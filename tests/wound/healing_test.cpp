@@ -1,4 +1,4 @@
-// H3 against its definition, in wider arithmetic; the two ways of closing; validation.
+// H3 against its definition in extended precision; the two healing models; validation.
 #include "wound/healing/healing.hpp"
 
 #include <cmath>
@@ -23,7 +23,7 @@ long double reference(const H3& c, double day)
            decline;
 }
 
-TEST(Healing, H3EqualsItsDefinitionInWiderArithmetic)
+TEST(Healing, H3EqualsItsDefinitionInExtendedPrecision)
 {
     double worst = 0;
     for (double gamma : {.5, .7, 1., 1.5, 2.336, 4.})
@@ -74,7 +74,7 @@ TEST(Healing, DayBelowIsTheLastCrossing)
     EXPECT_NEAR(wound::closure_day(H3{0, 1, 1, 0}), 50, .1); // 1 / (2 theta t) for large t
 }
 
-TEST(Healing, ContractionMovesTheBorderFaceLeavesARing)
+TEST(Healing, ContractionMovesTheBorderAndFaceLeavesARing)
 {
     Healing mouse{H3{}, HealingModel::Contraction, .43};
     Healing face;

@@ -66,7 +66,7 @@ TEST(Phases, OfAnOldWoundBringNoFreshClot)
         EXPECT_EQ(phase_at(day, 25, 10).clot, 0);
 }
 
-TEST(Phases, TurnTheDarkToClotThePaleToFibrinAndAllToGranulation)
+TEST(Phases, TintDarkAsClotPaleAsFibrinAndEverythingAsGranulation)
 {
     const Phase clotted{.5, 0, 0, 1}, yellow{0, .4, 0, 1}, granulating{0, 0, 1, 1};
     const auto change = [](const Vec3d& color, const Phase& phase) {

@@ -1,4 +1,4 @@
-// From a drawn photograph to any day: invariants of the whole way.
+// From a synthetic photograph to any day: invariants of the whole pipeline.
 #include "wound/prepare.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ wound::Preparation small_patch()
     return preparation;
 }
 
-TEST(Prepare, PutsTheCentroidInTheMiddleAndTheWidthOnTheWound)
+TEST(Prepare, CentresTheWoundAndScalesItToItsWidth)
 {
     const auto photo = photograph({260, 220}, {120, 110}, bean);
     const auto wound = wound::prepare(photo, small_patch());
@@ -59,7 +59,7 @@ TEST(Prepare, MapsHaveTheirRangesAndTheOpacityFallsToZeroInside)
     EXPECT_GT(wound.patch.opacity(128, 128), .99F);
 }
 
-TEST(Prepare, RotatingAndMirroringThePhotographDoesSoToTheResult)
+TEST(Prepare, RotatingAndMirroringThePhotographDoesTheSameToTheResult)
 {
     const auto photo = photograph({240, 240}, {119.5, 119.5}, bean);
     const auto base = wound::prepare(photo, small_patch());
@@ -148,7 +148,7 @@ TEST(Prepare, AOnePixelWoundAndOneThatNearlyFillsThePhotographWork)
     EXPECT_TRUE(cv::checkRange(filling.patch.color) && cv::checkRange(filling.patch.depth_mm));
 }
 
-// Half of the wound is in the picture: the picture's edge is its border, and beyond it lies skin, not wound.
+// Half of the wound is in the picture: the edge of the picture is the wound's border, with skin beyond it.
 TEST(Prepare, AWoundCutByThePhotographsEdgeEndsThereInSkin)
 {
     const auto photo = photograph({200, 160}, {0, 80}, testing_wounds::ellipse(50, 40));
@@ -171,13 +171,13 @@ TEST(Prepare, AWoundCutByThePhotographsEdgeEndsThereInSkin)
     }
 }
 
-/// Wound everywhere.
+/// A photograph with wound everywhere.
 wound::Photograph filled(cv::Size size)
 {
     return photograph(size, {size.width / 2., size.height / 2.}, [](double, double) { return 0.; });
 }
 
-// The photograph's edge is the border. No skin is seen, so an average one is taken for it.
+// The edge of the photograph is the wound's border. No skin is visible, so average skin is used beyond it.
 TEST(Prepare, AWoundThatFillsThePhotographEndsAtItsEdgeInAverageSkin)
 {
     const auto wound = wound::prepare(filled({180, 120}), small_patch());
@@ -191,7 +191,7 @@ TEST(Prepare, AWoundThatFillsThePhotographEndsAtItsEdgeInAverageSkin)
     EXPECT_EQ(wound.patch.opacity(128, 40), 0);
     const base::Lab beyond = base::lab_from_linear(base::Color(wound.patch.color(128, 40)));
     EXPECT_LT(base::delta_e2000(beyond, wound::average_skin), .1);
-    EXPECT_GT(wound.patch.depth_mm(128, 128), .5) << "red is deep beside average skin";
+    EXPECT_GT(wound.patch.depth_mm(128, 128), .5) << "red tissue lies deep compared with average skin";
     EXPECT_TRUE(cv::checkRange(wound.patch.color) && cv::checkRange(wound.patch.depth_mm));
     for (double r : {1.4, .6, .2, .05, .01}) {
         const wound::Warp warp = wound::make_warp(wound.flow, r);
@@ -214,7 +214,7 @@ TEST(Prepare, AWoundThatFillsAPictureOnBlackEndsWithThePicture)
     EXPECT_THROW(wound::prepare(photo, small_patch()), base::InputError);
 }
 
-TEST(Prepare, WoundsThatFillThePhotographTogetherAreNoSkinForEachOther)
+TEST(Prepare, WoundsThatFillThePhotographTogetherDoNotCountAsSkin)
 {
     auto photo = filled({200, 120});
     photo.mask.col(110).setTo(0);
@@ -226,7 +226,7 @@ TEST(Prepare, WoundsThatFillThePhotographTogetherAreNoSkinForEachOther)
     EXPECT_TRUE(wound::prepare(apart, small_patch()).patch.shows_skin);
 }
 
-TEST(Prepare, WarpedMaskOfARealPipelineHasTheRatiosArea)
+TEST(Prepare, WarpedMaskHasTheAreaOfTheRatio)
 {
     const auto wound = wound::prepare(photograph({260, 220}, {120, 110}, bean), small_patch());
     for (double r : {.9, .6, .4, .2, .1, .05}) {
@@ -272,7 +272,7 @@ TEST(Prepare, TheLastOfTheBedFadesAfterClosure)
     EXPECT_LT(steepest, .5);
 }
 
-/// Every number that a frame is drawn from.
+/// Every number of a day that a frame depends on.
 std::vector<std::pair<std::string, double>> numbers_of(const wound::WoundDay& day)
 {
     return {{"unhealed ratio", day.unhealed_ratio},
@@ -306,13 +306,13 @@ TEST(Prepare, NoNumberOfADayJumpsAtClosure)
         const auto at = [&](double day) {
             return numbers_of(wound::wound_at(wound, healing, day, wound::WarpModel::Radial));
         };
-        const auto eve = at(closed - 1), before = at(closed - instant), after = at(closed + instant),
-                   morrow = at(closed + 1);
-        for (std::size_t i = 0; i < eve.size(); ++i) {
-            const double a_day = std::max(std::abs(before[i].second - eve[i].second),
-                                          std::abs(morrow[i].second - after[i].second));
+        const auto day_before = at(closed - 1), before = at(closed - instant), after = at(closed + instant),
+                   day_after = at(closed + 1);
+        for (std::size_t i = 0; i < day_before.size(); ++i) {
+            const double a_day = std::max(std::abs(before[i].second - day_before[i].second),
+                                          std::abs(day_after[i].second - after[i].second));
             EXPECT_LE(std::abs(after[i].second - before[i].second), 100 * 2 * instant * a_day + 1e-12)
-                << eve[i].first << (model == wound::HealingModel::Face ? ", face" : ", contraction");
+                << day_before[i].first << (model == wound::HealingModel::Face ? ", face" : ", contraction");
         }
     }
 }

@@ -1,4 +1,4 @@
-// The scar against published courses, and its continuity with the wound.
+// The scar against published values over time, and its continuity with the wound.
 #include "wound/healing/scar.hpp"
 
 #include <cmath>

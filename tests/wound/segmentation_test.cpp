@@ -1,4 +1,4 @@
-// Segmentation of drawn photographs whose masks are known, hints, and masks given by the user.
+// Segmentation of synthetic photographs with known masks, hints, and masks given by the user.
 #include "wound/photo/segmentation.hpp"
 
 #include <gmock/gmock.h>
@@ -43,7 +43,7 @@ TEST(Segmentation, SeedAndRectangleFindAWoundOffTheMiddle)
     EXPECT_GT(wound::intersection_over_union(wound::segment(photo.srgb, by_rect, "p"), photo.mask), .95);
 }
 
-TEST(Segmentation, TurningMirroringAndScalingThePhotographDoesSoToTheMask)
+TEST(Segmentation, TurningMirroringAndScalingThePhotographDoesTheSameToTheMask)
 {
     const auto photo = photograph({240, 200}, {110, 104}, ellipse(44, 28));
     const cv::Mat1b found = wound::segment(photo.srgb, {}, "photo");
@@ -120,7 +120,7 @@ TEST(Mask, EmptyAndWrongSizeAreRefused)
     EXPECT_THAT(reason(cv::Mat1b::zeros(41, 60)), HasSubstr("60x41"));
 }
 
-TEST(Mask, AFullOneIsTheWholePhotographUnlessThatIsTiny)
+TEST(Mask, AFullMaskIsTheWholePhotographUnlessThatIsTiny)
 {
     const cv::Mat1b full(40, 60, uchar(255)), line(1, 200, uchar(255));
     EXPECT_EQ(cv::countNonZero(wound::checked_mask(full, full.size(), "m")), 40 * 60);

@@ -1,5 +1,5 @@
-// The day's maps and the skin under a wound where both are known without a device; that they are the
-// renderer's on every day, tests/passes/ compares.
+// The day's maps and the skin under a wound, checked without a device. tests/passes/ compares both with the
+// renderer on every day.
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
@@ -85,7 +85,7 @@ TEST(DayMaps, OfARegionAreThoseOfTheWholePatch)
     EXPECT_EQ(cv::norm(part.color, wound.maps.color(region), cv::NORM_INF), 0);
     for (const cv::Point2d at : {cv::Point2d(0, 0), {.21, -.13}, {-.3, .05}})
         EXPECT_LT(cv::norm(wound::sample(part, at).color - wound::sample(wound.maps, at).color), 1e-6);
-    EXPECT_EQ(wound::sample(part, {-1, -1}).color[3], 0) << "beside the region there is no wound";
+    EXPECT_EQ(wound::sample(part, {-1, -1}).color[3], 0) << "outside the region there is no wound";
 }
 
 TEST(SkinBlend, IsTheWoundsOwnColorOnDayZeroAndTheSkinWhenHealed)
@@ -103,7 +103,7 @@ TEST(SkinBlend, IsTheWoundsOwnColorOnDayZeroAndTheSkinWhenHealed)
     EXPECT_LT(wound.seen(place({0, 0})).wetness, 1e-6);
 }
 
-TEST(SkinBlend, LeavesSkinAloneThatTheWoundDoesNotReach)
+TEST(SkinBlend, LeavesSkinUnchangedThatTheWoundDoesNotReach)
 {
     Wound wound;
     wound.on(3);
@@ -112,7 +112,7 @@ TEST(SkinBlend, LeavesSkinAloneThatTheWoundDoesNotReach)
     expect_untouched(wound.seen(place({0, 0}, 0)));
 }
 
-TEST(SkinBlend, WallsOfTheHollowBendTheNormalAndTakeLight)
+TEST(SkinBlend, WallsOfTheCavityTiltTheNormalAndOccludeLight)
 {
     Wound wound;
     wound.on(0);
@@ -126,5 +126,5 @@ TEST(SkinBlend, WallsOfTheHollowBendTheNormalAndTakeLight)
     }
     EXPECT_GT(steepest, .1);
     EXPECT_LT(darkest, .95);
-    EXPECT_LT(std::abs(sum) * .02, .1) << "what goes down comes up again";
+    EXPECT_LT(std::abs(sum) * .02, .1) << "the slopes of both walls must cancel";
 }

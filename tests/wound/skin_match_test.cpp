@@ -41,7 +41,7 @@ cv::Mat3f skin_of(const Vec3f& tone, std::uint32_t seed = 3)
     return skin;
 }
 
-/// A round red wound in skin, with a reddened halo `halo` strong.
+/// A round red wound in skin, with a reddened halo of strength `halo`.
 Patch wound_in(const cv::Mat3f& skin, float halo = 0)
 {
     Patch patch{skin.clone(), cv::Mat1f(n, n, 1.f), cv::Mat1f(n, n), cv::Mat1f(n, n, 1.f), 40};
@@ -113,7 +113,7 @@ TEST(SkinMatch, CoversTheWoundAndEndsInABandAroundIt)
     EXPECT_EQ(greatest_opacity(result, [](int x, int y) { return from_middle(x, y) > 1.85f * radius; }), 0);
 }
 
-TEST(SkinMatch, LeavesAPhotoOfTheFacesOwnSkinAsItWas)
+TEST(SkinMatch, LeavesAPhotoOfTheFacesOwnSkinUnchanged)
 {
     const cv::Mat3f face = skin_of(light_skin);
     const Patch patch = wound_in(face), result = match_to_skin(patch, face);
@@ -204,7 +204,7 @@ TEST(SkinMatch, CarriesTheInflamedRimAsARatioToHealthySkin)
     }
 }
 
-TEST(SkinMatch, TakesAColorCastOutOfTheBedInPart)
+TEST(SkinMatch, RemovesPartOfAColorCastFromTheBed)
 {
     const Vec3f cast{1.f, 1.f, .55f}; // tungsten light
     Patch patch = wound_in(skin_of(light_skin));
@@ -215,7 +215,7 @@ TEST(SkinMatch, TakesAColorCastOutOfTheBedInPart)
     EXPECT_LT(bed[2] / bed[1], blood[2] / blood[1]);
 }
 
-TEST(SkinMatch, StopsBeforeWhatIsNotSkin)
+TEST(SkinMatch, StopsBeforePixelsThatAreNotSkin)
 {
     for (const Vec3f& background :
          {Vec3f(0, 0, 0), Vec3f(.2f, .21f, .22f), Vec3f(.1f, .2f, .5f), Vec3f(.9f, .9f, .9f)})
@@ -234,7 +234,7 @@ TEST(SkinMatch, StopsBeforeWhatIsNotSkin)
     }
 }
 
-TEST(SkinMatch, IsClearWhereThePhotographHasNoData)
+TEST(SkinMatch, IsTransparentWhereThePhotographHasNoData)
 {
     Patch patch = wound_in(skin_of(light_skin));
     patch.opacity(cv::Rect(0, 0, n, n / 2 - 20)) = 0; // the photo ends in the middle of the wound
@@ -263,8 +263,8 @@ TEST(SkinMatch, FillsInAFaceThatIsKnownOnlyInPart)
     EXPECT_NEAR(result.color(n / 2, n / 2 - int(1.2f * radius))[1] / dark_skin[1], 1, .2f);
 }
 
-// A photograph of wound alone: what lies beyond its border is not the photograph's.
-TEST(SkinMatch, WithoutSkinInThePhotoTheFacesOwnIsTakenForIt)
+// The photograph shows only wound, so nothing beyond the wound's border comes from the photograph.
+TEST(SkinMatch, WithoutSkinInThePhotoTheFacesOwnSkinIsUsed)
 {
     for (const Vec3f& face_tone : {light_skin, dark_skin}) {
         const cv::Mat3f face = skin_of(face_tone);
@@ -278,7 +278,7 @@ TEST(SkinMatch, WithoutSkinInThePhotoTheFacesOwnIsTakenForIt)
         const Vec3f bed = mean_in_ring(result.color, 0, .8f * radius);
         for (int k = 0; k < 3; ++k) {
             EXPECT_NEAR(bed[k], mean_in_ring(match_to_skin(other, face).color, 0, .8f * radius)[k], 1e-6f);
-            EXPECT_NEAR(bed[k] / blood[k], 1, .1f) << "nothing tells of a false white balance";
+            EXPECT_NEAR(bed[k] / blood[k], 1, .1f) << "nothing indicates a wrong white balance";
         }
         for (int y = 0; y < n; ++y)
             for (int x = 0; x < n; ++x)
@@ -339,7 +339,7 @@ TEST(SkinMatch, AMaskAtThePatchesEdgeStillFadesOut)
               0);
 }
 
-TEST(Membrane, FollowsDataWhereItIsSureAndIsHarmonicBetween)
+TEST(Membrane, FollowsDataOfHighWeightAndIsHarmonicBetween)
 {
     constexpr int side = 64;
     cv::Mat3f data(side, side, Vec3f::all(0));

@@ -9,7 +9,7 @@
 
 namespace wound {
 
-/// For the names of the tests: "abrasion".
+/// Prints the shape's name in test output, e.g. "abrasion".
 static void PrintTo(WoundShape shape, std::ostream* out)
 {
     *out << shape_names()[std::size_t(shape)];
@@ -42,7 +42,7 @@ cv::Vec3d mean_linear(const Photograph& photo, const cv::Mat1b& where)
     return sum / count;
 }
 
-/// Pixels whose distance outside the mask, in mm, lies between two bounds.
+/// Pixels outside the mask at a distance from it between two bounds, mm.
 cv::Mat1b ring(const Photograph& photo, double from_mm, double to_mm)
 {
     cv::Mat1f distance;
@@ -144,7 +144,7 @@ TEST(SyntheticWound, HasARedBedOfManyTints)
     EXPECT_GT(bed[0], 2.5 * bed[2]);
     cv::Scalar mean, deviation;
     cv::meanStdDev(photo.srgb, mean, deviation, photo.mask);
-    EXPECT_GT(deviation[0], 20); // codes of 255
+    EXPECT_GT(deviation[0], 20); // of 255
     EXPECT_GT(deviation[1], 20);
 }
 

@@ -40,7 +40,7 @@ TEST(Timeline, PhasesBeginWhereTheBedBeginsToShowThem)
     }
 }
 
-TEST(Timeline, ScarsMonthsAreTheScarModels)
+TEST(Timeline, ScarMarksAreAtTheMonthsOfTheScarModel)
 {
     const wound::Healing healing;
     const wound::Timeline timeline = wound::timeline(healing, 3650);
