@@ -67,7 +67,10 @@ std::int64_t Fields::integer(const std::string& name, std::int64_t fallback, std
     const json* value = get(name);
     if (value == nullptr)
         return fallback;
-    if (!value->is_number_integer() || value->get<std::int64_t>() < low || value->get<std::int64_t>() > high)
+    const bool too_large =
+        value->is_number_unsigned() && value->get<std::uint64_t>() > std::uint64_t(INT64_MAX);
+    if (!value->is_number_integer() || too_large || value->get<std::int64_t>() < low ||
+        value->get<std::int64_t>() > high)
         fail(name, "is " + value->dump(), fmt::format("give a whole number from {} to {}", low, high));
     return value->get<std::int64_t>();
 }

@@ -276,7 +276,7 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
     const int n = source.color.rows;
     Patch result{cv::Mat3f(n, n), cv::Mat1f(n, n), patch.mask, patch.depth_mm, patch.width_mm, true};
 
-    flatten_glints(source.color, source.coverage, source.radius);
+    remove_highlights(source.color, source.coverage, source.radius);
     cv::Mat3f log_photo;
     cv::log(source.color, log_photo);
 

@@ -128,7 +128,12 @@ void set_stage(std::optional<stage::Stage>& stage, const gpu::Device& device, co
 std::string csv_text(const json& value)
 {
     const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-    return text.find_first_of(",\"\n") == std::string::npos ? text : json(text).dump();
+    if (text.find_first_of(",\"\r\n") == std::string::npos)
+        return text;
+    std::string quoted = "\"";
+    for (const char c : text)
+        quoted += c == '"' ? "\"\"" : std::string(1, c); // RFC 4180
+    return quoted + '"';
 }
 
 /// One line per variation, picture and wound.
@@ -136,8 +141,8 @@ void add_measurements(std::string& table, const std::string& variation, const js
 {
     for (const json& frame : labels.at("frames"))
         for (const json& wound : frame.at("wounds")) {
-            table += fmt::format("{},{},{},{}", variation, frame.at("file").get<std::string>(),
-                                 frame.value("view", ""), frame.at("day").dump());
+            table += fmt::format("{},{},{},{}", csv_text(variation), csv_text(frame.at("file")),
+                                 csv_text(frame.value("view", "")), frame.at("day").dump());
             for (const char* field : {"wound", "unhealed_ratio", "bed_px", "new_epithelium_px", "bed_mm2",
                                       "inside_border_mm2", "visible_bed_mm2", "visible_inside_border_mm2",
                                       "visible_fraction", "deepest_mm", "volume_mm3"})

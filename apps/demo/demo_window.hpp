@@ -68,6 +68,8 @@ class DemoWindow
     void grant_wishes();
     void grant_edits();
     std::optional<glm::dvec3> place_at(const glm::dvec2& at) const; // on the skin; `at`: 0..1 of the view
+    /// Says so in a notice when there is none.
+    bool has_room_for_wound();
     void put_wound(const glm::dvec2& at);
     void move_wound(const glm::dvec2& to);
     void go_to(const scene::Scene& scene);

@@ -8,11 +8,12 @@
 #include "base/image_io.hpp"
 #include "base/input_error.hpp"
 #include "scene/file.hpp"
+#include "shaders/shared/frame.h"
 
 namespace demo_command {
 namespace {
 
-constexpr std::size_t max_wounds = 7;
+constexpr std::size_t max_wounds = shared::MAX_WOUNDS;
 
 std::string lower_extension(const std::filesystem::path& file)
 {
@@ -146,6 +147,14 @@ std::optional<glm::dvec3> DemoWindow::place_at(const glm::dvec2& at) const
                                  double(state_.view.width) / state_.view.height);
 }
 
+bool DemoWindow::has_room_for_wound()
+{
+    if (state_.scene.wounds.size() < max_wounds)
+        return true;
+    state_.notices.say(fmt::format("A scene has room for {} wounds; delete one first.", max_wounds), now_s());
+    return false;
+}
+
 void DemoWindow::put_wound(const glm::dvec2& at)
 {
     const auto place = place_at(at);
@@ -153,11 +162,8 @@ void DemoWindow::put_wound(const glm::dvec2& at)
         state_.selected.reset(); // the click missed the head
         return;
     }
-    if (state_.scene.wounds.size() >= max_wounds) {
-        state_.notices.say(fmt::format("A scene has room for {} wounds; delete one first.", max_wounds),
-                           now_s());
+    if (!has_room_for_wound())
         return;
-    }
     scene::Wound wound = next_wound(state_.scene);
     wound.place = *place;
     state_.selected = state_.scene.wounds.size();
@@ -236,8 +242,8 @@ void DemoWindow::use_photo()
     std::optional<std::size_t> index = entries.wound;
     if (!index && wounds.size() == 1 && wounds.front().photo.empty())
         index = 0; // replaces the default wound
-    if (!index && wounds.size() >= max_wounds)
-        index = max_wounds - 1;
+    if (!index && !has_room_for_wound())
+        return;
     if (!index) {
         index = wounds.size();
         wounds.push_back(next_wound(state_.scene));

@@ -82,7 +82,8 @@ class EveryShape : public testing::TestWithParam<WoundShape>
 {
 };
 INSTANTIATE_TEST_SUITE_P(SyntheticWound, EveryShape,
-                         testing::Values(WoundShape::Abrasion, WoundShape::Laceration, WoundShape::Avulsion));
+                         testing::Values(WoundShape::Abrasion, WoundShape::Laceration, WoundShape::Avulsion),
+                         testing::PrintToStringParamName());
 
 TEST_P(EveryShape, IsTheSameBitByBitForTheSameSeed)
 {

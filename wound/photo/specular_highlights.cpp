@@ -41,7 +41,7 @@ cv::Mat1f find_highlights(const cv::Mat3f& color, const cv::Mat1f& coverage, int
 
 } // namespace
 
-void flatten_glints(cv::Mat3f& color, const cv::Mat1f& coverage, float radius)
+void remove_highlights(cv::Mat3f& color, const cv::Mat1f& coverage, float radius)
 {
     const int width = 2 * std::clamp(int(.3f * radius), 2, 60) + 1;
     cv::Mat1f highlight = find_highlights(color, coverage, width);
