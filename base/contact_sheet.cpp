@@ -11,7 +11,7 @@ namespace {
 
 const cv::Vec3b page_color = rgb_of(palette::paper);
 constexpr int cell_width = 300;
-constexpr int gap = 12, label_height = 30, title_height = 44;
+constexpr int gap = 12, label_height = 30, header_height = 44;
 
 void paste(cv::Mat3b& page, const cv::Mat3b& picture, cv::Point at)
 {
@@ -49,11 +49,11 @@ cv::Mat3b contact_sheet(const std::string& title, const std::vector<SheetCell>& 
     const int close_height = cells.front().close_up.rows;
     const int row_height = face_height + close_height + label_height + gap + 4;
     const int rows = (int(cells.size()) + columns - 1) / columns;
-    cv::Mat3b page(title_height + rows * row_height + gap, gap + columns * (cell_width + gap), page_color);
-    draw_text(page, title, {gap, title_height - 16}, {.height = 14});
+    cv::Mat3b page(header_height + rows * row_height + gap, gap + columns * (cell_width + gap), page_color);
+    draw_text(page, title, {gap, header_height - 16}, {.height = 14});
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const int x = gap + int(i) % columns * (cell_width + gap);
-        const int y = title_height + int(i) / columns * row_height;
+        const int y = header_height + int(i) / columns * row_height;
         paste(page, cells[i].face, {x, y});
         if (close_height > 0)
             paste(page, cells[i].close_up, {x, y + face_height + 4});

@@ -15,12 +15,12 @@ json rows_of(const glm::dmat4& matrix)
     return rows;
 }
 
+} // namespace
+
 json numbers_of(const glm::dvec3& v)
 {
     return {v.x, v.y, v.z};
 }
-
-} // namespace
 
 json camera_record(const Stage& stage, const head::Camera& camera, std::array<std::uint32_t, 2> size)
 {

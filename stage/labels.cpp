@@ -6,6 +6,7 @@
 
 #include "base/file.hpp"
 #include "base/image_io.hpp"
+#include "stage/camera_record.hpp"
 
 namespace stage {
 namespace {
@@ -47,11 +48,6 @@ cv::Mat3b depth_picture(const passes::LabelMaps& maps, const cv::Mat3b& picture,
     cv::cvtColor(gray, result, cv::COLOR_GRAY2RGB);
     colored.copyTo(result, maps.wounds != 0);
     return result;
-}
-
-json numbers_of(const glm::dvec3& v)
-{
-    return {v.x, v.y, v.z};
 }
 
 json wound_entry(const Stage& stage, std::size_t index, const wound::WoundDay& today,

@@ -18,7 +18,7 @@ namespace {
 
 using cv::Vec3f;
 
-constexpr int grid = healthy_skin_grid;
+constexpr int skin_grid = healthy_skin_grid;
 constexpr float darkest = .002f; // reflectance; keeps logarithms finite
 
 bool is_finite(const Vec3f& v)
@@ -29,14 +29,16 @@ bool is_finite(const Vec3f& v)
 cv::Mat1f coarse(const cv::Mat1f& fine)
 {
     cv::Mat1f result;
-    cv::resize(fine, result, {grid, grid}, 0, 0, fine.rows > grid ? cv::INTER_AREA : cv::INTER_LINEAR);
+    cv::resize(fine, result, {skin_grid, skin_grid}, 0, 0,
+               fine.rows > skin_grid ? cv::INTER_AREA : cv::INTER_LINEAR);
     return result;
 }
 
 cv::Mat3f coarse(const cv::Mat3f& fine)
 {
     cv::Mat3f result;
-    cv::resize(fine, result, {grid, grid}, 0, 0, fine.rows > grid ? cv::INTER_AREA : cv::INTER_LINEAR);
+    cv::resize(fine, result, {skin_grid, skin_grid}, 0, 0,
+               fine.rows > skin_grid ? cv::INTER_AREA : cv::INTER_LINEAR);
     return result;
 }
 
@@ -85,8 +87,8 @@ float correction(float cast, float tolerance)
 std::optional<float> blue_of_blood(const cv::Mat3f& log_photo, const cv::Mat1f& coverage)
 {
     std::vector<float> blues;
-    for (int y = 0; y < grid; ++y)
-        for (int x = 0; x < grid; ++x)
+    for (int y = 0; y < skin_grid; ++y)
+        for (int x = 0; x < skin_grid; ++x)
             if (const Vec3f& c = log_photo(y, x); coverage(y, x) > .9f && c[0] - c[1] > 1)
                 blues.push_back(c[2] - c[1]);
     if (float(blues.size()) < .2f * float(cv::sum(coverage)[0]) || blues.empty())
@@ -129,7 +131,8 @@ struct Face
 
 Face coarse_face(const cv::Mat3f& skin)
 {
-    Face face{cv::Mat3f(grid, grid, Vec3f::all(0)), cv::Mat1f(grid, grid, 0.f), std::nullopt};
+    Face face{cv::Mat3f(skin_grid, skin_grid, Vec3f::all(0)), cv::Mat1f(skin_grid, skin_grid, 0.f),
+              std::nullopt};
     if (skin.empty())
         return face;
     cv::Mat3f known_color(skin.size());
@@ -143,8 +146,8 @@ Face coarse_face(const cv::Mat3f& skin)
     known_color = coarse(known_color);
     known = coarse(known);
     std::vector<float> lightness;
-    for (int y = 0; y < grid; ++y)
-        for (int x = 0; x < grid; ++x)
+    for (int y = 0; y < skin_grid; ++y)
+        for (int x = 0; x < skin_grid; ++x)
             if (known(y, x) > .5f) {
                 for (int k = 0; k < 3; ++k)
                     face.log_color(y, x)[k] =
@@ -157,8 +160,8 @@ Face coarse_face(const cv::Mat3f& skin)
     const auto middle = lightness.begin() + std::ptrdiff_t(lightness.size() / 2);
     std::nth_element(lightness.begin(), middle, lightness.end());
     face.log_green = *middle;
-    for (int y = 0; y < grid; ++y)
-        for (int x = 0; x < grid; ++x) {
+    for (int y = 0; y < skin_grid; ++y)
+        for (int x = 0; x < skin_grid; ++x) {
             const float off = (face.log_color(y, x)[1] - *face.log_green) / .45f;
             face.weight(y, x) *= std::exp(-.5f * off * off);
         }
@@ -170,10 +173,10 @@ Face coarse_face(const cv::Mat3f& skin)
 HealthySkin assumed_skin(const Face& face)
 {
     HealthySkin skin;
-    skin.outwardness = cv::Mat1f(grid, grid, 1.f);
-    skin.health = cv::Mat1f(grid, grid, 0.f);
-    skin.foreignness = cv::Mat1f(grid, grid, 0.f);
-    skin.rawness = cv::Mat1f(grid, grid, 1.f);
+    skin.outwardness = cv::Mat1f(skin_grid, skin_grid, 1.f);
+    skin.health = cv::Mat1f(skin_grid, skin_grid, 0.f);
+    skin.foreignness = cv::Mat1f(skin_grid, skin_grid, 0.f);
+    skin.rawness = cv::Mat1f(skin_grid, skin_grid, 1.f);
     const cv::Scalar mean = cv::mean(face.log_color, face.weight > .5f);
     if (face.log_green)
         skin.log_color = {float(mean[0]), float(mean[1]), float(mean[2])};
@@ -207,16 +210,16 @@ cv::Mat3f skin_gain(const cv::Mat3f& log_photo, const HealthySkin& skin, const F
     cv::Mat3f difference = face.log_color - log_photo;
     cv::Mat3f gain = membrane(difference, skin.health.mul(face.weight));
     const cv::Mat3f healthy = membrane(log_photo, skin.health);
-    cv::Mat1f shade(grid, grid);
-    for (int y = 0; y < grid; ++y)
-        for (int x = 0; x < grid; ++x) {
+    cv::Mat1f shade(skin_grid, skin_grid);
+    for (int y = 0; y < skin_grid; ++y)
+        for (int x = 0; x < skin_grid; ++x) {
             const float even = even_part(log_photo(y, x) - healthy(y, x));
             const float beyond = even - std::clamp(even, -.05f, .05f); // .05 is the variation between pores
             shade(y, x) = std::clamp(beyond, -2.f, 2.f) * base::smoothstep(.05f, .5f, skin.outwardness(y, x));
         }
     cv::GaussianBlur(shade, shade, {7, 7}, 1.5);
-    for (int y = 0; y < grid; ++y)
-        for (int x = 0; x < grid; ++x)
+    for (int y = 0; y < skin_grid; ++y)
+        for (int x = 0; x < skin_grid; ++x)
             gain(y, x) -= Vec3f::all(shade(y, x));
     return gain;
 }
@@ -282,7 +285,7 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
 
     const cv::Mat3f log_coarse = coarse(log_photo);
     const cv::Mat1f covered = coarse(source.coverage);
-    const float reach = source.reach * grid / float(n);
+    const float reach = source.reach * skin_grid / float(n);
     const Face face = coarse_face(face_skin);
     HealthySkin skin =
         patch.shows_skin ? find_healthy_skin(log_coarse, covered, coarse(source.valid), std::max(reach, 3.f))

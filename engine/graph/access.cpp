@@ -7,7 +7,7 @@ namespace graph {
 
 namespace {
 
-constexpr std::array<AccessRow, 8> table{{
+constexpr std::array<AccessRow, 8> access_table{{
     {Usage::SampledInCompute, "sampled in compute", VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
      VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, false,
      VK_IMAGE_USAGE_SAMPLED_BIT},
@@ -54,7 +54,7 @@ Barrier after_last_access(const AccessState& state, const AccessRow& next)
 
 const AccessRow& access_row(Usage usage)
 {
-    const AccessRow& row = table[static_cast<std::size_t>(usage)];
+    const AccessRow& row = access_table[static_cast<std::size_t>(usage)];
     assert(row.usage == usage);
     return row;
 }

@@ -33,10 +33,10 @@ bool has_name(const ShaderGroup& group, std::string_view name)
     return group.find_binding(name) || group.find_constant(name);
 }
 
-class Checker
+class BindingChecker
 {
   public:
-    Checker(const Graph& graph, const ShaderLibrary& library) : graph_(graph), library_(library) {}
+    BindingChecker(const Graph& graph, const ShaderLibrary& library) : graph_(graph), library_(library) {}
 
     std::vector<std::string> run()
     {
@@ -211,7 +211,7 @@ const Constant* BindingScope::constant(std::string_view name) const
 
 std::vector<std::string> check_bindings(const Graph& graph, const ShaderLibrary& library)
 {
-    return Checker(graph, library).run();
+    return BindingChecker(graph, library).run();
 }
 
 } // namespace graph

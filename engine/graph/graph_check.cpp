@@ -14,10 +14,10 @@ namespace graph {
 namespace {
 
 /// Collects the mistakes of one graph.
-class Checker
+class GraphChecker
 {
   public:
-    explicit Checker(const Graph& graph) : graph_(graph), writers_(graph.images.size()) {}
+    explicit GraphChecker(const Graph& graph) : graph_(graph), writers_(graph.images.size()) {}
 
     std::vector<std::string> run()
     {
@@ -273,7 +273,7 @@ std::vector<ImageAccess> accesses(const Pass& pass)
 
 std::vector<std::string> check_graph(const Graph& graph)
 {
-    return Checker(graph).run();
+    return GraphChecker(graph).run();
 }
 
 std::vector<std::uint32_t> order_passes(const Graph& graph)

@@ -22,7 +22,7 @@ namespace head_tool {
 namespace {
 
 /// The face: a man of about forty, slightly asymmetric.
-constexpr MorphWeight face[] = {
+constexpr MorphWeight face_morphs[] = {
     {"caucasian-male-young", 0.75},
     {"caucasian-male-old", 0.25},
     {"universal-male-young-averagemuscle-averageweight", 0.7},
@@ -245,7 +245,7 @@ void bake_head(const HeadSources& sources, const std::filesystem::path& output_g
     constexpr int skin_size = 2048, skin_occlusion_size = 1024, part_occlusion_size = 256; // px
     progress("shaping the head");
     MakeHuman figure(sources.makehuman);
-    figure.morph(face);
+    figure.morph(face_morphs);
     const CutMesh bust = cut_bust(figure.body());
     const SkinAtlas atlas = lay_out_skin(bust, skin_size);
     head::RawMesh mesh = assemble(figure, bust, atlas);

@@ -7,11 +7,10 @@
 
 #include "wound/healing/phases.hpp"
 #include "wound/healing/scar.hpp"
+#include "wound/optics/skin_presets.hpp"
 
 namespace wound {
 namespace {
-
-constexpr double days_per_month = 30.44;
 
 /// The phases of the open bed; each begins with its course in phase_at().
 std::vector<TimelinePhase> open_phases(const Healing& healing, double closed, double last_day)
@@ -42,7 +41,7 @@ Timeline timeline(const Healing& healing, double last_day, int samples)
         result.marks.push_back({result.closure_day, "closed"});
         result.phases.push_back({result.closure_day, last_day, "scar"});
         for (int months = 1; months <= 12; ++months)
-            if (const double day = result.closure_day + months * days_per_month; day <= last_day)
+            if (const double day = result.closure_day + months * optics::days_per_month; day <= last_day)
                 result.marks.push_back(
                     {day, fmt::format("scar, {} {}", months, months == 1 ? "month" : "months")});
     }

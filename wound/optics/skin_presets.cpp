@@ -10,7 +10,6 @@ namespace {
 
 constexpr double anisotropy = 0.8;
 constexpr double epidermis_index = 1.45, dermis_index = 1.4, subcutis_index = 1.44, blood_index = 1.38;
-constexpr double days_per_month = 30.44;
 
 Layer epidermis_layer(const Chromophores& content, double thickness_mm)
 {

@@ -14,6 +14,8 @@
 
 namespace optics {
 
+inline constexpr double days_per_month = 30.44;
+
 struct ChromophoreSkin
 {
     Chromophores epidermis, dermis, subcutis;

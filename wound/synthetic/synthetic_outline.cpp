@@ -98,16 +98,17 @@ float tears(const Noise& noise, Point2f p)
     return ragged * (1.1f * noise.sum(q * .6f, 4, .6f) - 2.5f * std::max(notch - .8f, 0.f));
 }
 
-/// bent_body() at every `step`th pixel, with one more row and column than needed to interpolate.
-constexpr int step = 4;
+/// bent_body() at every `sample_step`th pixel, with one more row and column than needed to interpolate.
+constexpr int sample_step = 4;
 cv::Mat1f coarse_body(const SyntheticWound& wound, const Noise& noise)
 {
-    const int nodes = wound.size / step + 2;
+    const int nodes = wound.size / sample_step + 2;
     cv::Mat1f coarse(nodes, nodes);
     for (int j = 0; j < nodes; ++j)
         for (int i = 0; i < nodes; ++i)
             coarse(j, i) =
-                bent_body(wound, noise, synthetic_position_mm(float(i * step), float(j * step), wound.size));
+                bent_body(wound, noise,
+                          synthetic_position_mm(float(i * sample_step), float(j * sample_step), wound.size));
     return coarse;
 }
 
@@ -137,8 +138,9 @@ cv::Mat1f outline_distance(const SyntheticWound& wound, const Noise& noise)
     cv::parallel_for_({margin, n - margin}, [&](const cv::Range& rows) {
         for (int y = rows.start; y < rows.end; ++y)
             for (int x = margin; x < n - margin; ++x) {
-                const int i = x / step, j = y / step;
-                const float u = float(x % step) / step, v = float(y % step) / step;
+                const int i = x / sample_step, j = y / sample_step;
+                const float u = float(x % sample_step) / sample_step,
+                            v = float(y % sample_step) / sample_step;
                 float f = std::lerp(std::lerp(coarse(j, i), coarse(j, i + 1), u),
                                     std::lerp(coarse(j + 1, i), coarse(j + 1, i + 1), u), v);
                 if (std::abs(f) < 3) // farther away, tears cannot change the sign

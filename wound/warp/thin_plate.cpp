@@ -1,6 +1,6 @@
 #include "wound/warp/thin_plate.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
