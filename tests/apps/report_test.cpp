@@ -306,8 +306,8 @@ TEST_F(Report, RefusesInvalidReports)
     newer["version"] = 2;
     for (const auto& [name, text, word] :
          {std::tuple("a.json", std::string("{"), "JSON"),
-          {"b.json", std::string("[1]"), "no report"},
-          {"c.json", std::string(R"({"format": "cicatrix sweep"})"), "no report"},
+          {"b.json", std::string("[1]"), "not a report"},
+          {"c.json", std::string(R"({"format": "cicatrix sweep"})"), "not a report"},
           {"d.json", damaged.dump(), "damaged"},
           {"e.json", newer.dump(), "version"}})
     {

@@ -151,7 +151,7 @@ TEST_F(SeveralWounds, MoreThanASceneHoldsAreRefused)
     scene.wounds = {wound_of(discs)};
     scene.wounds[0].place = glm::dvec3(0);
     EXPECT_THAT(refusal(scene),
-                AllOf(HasSubstr(scene.wounds[0].photo.string()), HasSubstr("8 components"), HasSubstr("7")));
+                AllOf(HasSubstr(scene.wounds[0].photo.string()), HasSubstr("its 8 wounds"), HasSubstr("7")));
     discs.pop_back();
     scene.wounds = {wound_of(discs)};
     scene.wounds[0].place = glm::dvec3(0);

@@ -129,7 +129,7 @@ TEST(AreaTable, MalformedTablesAreRefusedWithLineAndRemedy)
     EXPECT_THAT(refusal("day,area\n0,ten\n"), HasSubstr("\"ten\""));
     EXPECT_THAT(refusal("day,area\n0,1\n4\n"), HasSubstr("line 3 has 1 columns of 2"));
     EXPECT_THAT(refusal("day,area\n0,0\n4,1\n"), HasSubstr("the area on its first day is 0"));
-    EXPECT_THAT(refusal("7\n8\n"), HasSubstr("a row has 1 columns"));
+    EXPECT_THAT(refusal("7\n8\n"), HasSubstr("has no header and 1 columns"));
     EXPECT_THAT(refusal("day,area\n0,5,5\n3,1,25\n"), HasSubstr("line 2 has 3 columns, the header 2"));
     EXPECT_THAT(refusal("0,5,5\n3,1,25\n"), HasSubstr("where commas are decimal, separate by semicolons"));
     EXPECT_THAT(refusal("day,area\n0,1\n3,1e308\n"), HasSubstr("times that of the first day"));
