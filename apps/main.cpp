@@ -11,6 +11,7 @@
 #include "apps/graph/graph.hpp"
 #include "apps/info/info.hpp"
 #include "apps/predict/predict.hpp"
+#include "apps/reference/reference.hpp"
 #include "apps/reflect/reflect.hpp"
 #include "apps/report/report.hpp"
 #include "apps/segmentation/segmentation.hpp"
@@ -35,6 +36,7 @@ int main(int argc, char** argv)
     segmentation_command::add(program);
     predict_command::add(program);
     reflect_command::add(program);
+    reference_command::add(program);
     bake_command::add(program);
     document_command::add(program);
     return base::run_program(program, argc, argv);

@@ -83,6 +83,11 @@ cv::Vec3b srgb8_from_linear(const Color& linear)
     return result;
 }
 
+cv::Matx33d relative_xyz_from_linear()
+{
+    return cv::Matx33d::diag({1 / white[0], 1 / white[1], 1 / white[2]}) * xyz_from_linear;
+}
+
 Lab lab_from_linear(const Color& linear)
 {
     const cv::Vec3d xyz = xyz_from_linear * linear;

@@ -32,6 +32,9 @@ Color linear_from_srgb8(const cv::Vec3b& rgb);
 /// Rounded to nearest; values outside 0..1 are clamped, NaN becomes 0.
 cv::Vec3b srgb8_from_linear(const Color& linear);
 
+/// Linear Rec. 709 to CIE XYZ divided by that of D65 white: (1,1,1) stays (1,1,1).
+cv::Matx33d relative_xyz_from_linear();
+
 /// CIELAB (CIE 15) relative to D65 white, which is linear (1,1,1).
 struct Lab
 {

@@ -1,6 +1,9 @@
 #include "passes/tonemap.hpp"
 
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "base/tone_curve.hpp"
 
 namespace passes {
 
@@ -8,7 +11,7 @@ Backdrop backdrop_of(const ViewportTile& tile)
 {
     if (tile.transparent)
         return {.transparent = true};
-    const glm::vec3 top{0.045f, 0.05f, 0.058f}, bottom{0.17f, 0.18f, 0.195f};
+    const glm::vec3 top = glm::make_vec3(base::backdrop_top), bottom = glm::make_vec3(base::backdrop_bottom);
     const auto at = [&](double y) { return glm::mix(top, bottom, float(y / tile.picture[1])); };
     return {at(tile.corner[1]), at(double(tile.corner[1]) + tile.size[1])};
 }

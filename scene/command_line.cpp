@@ -38,7 +38,7 @@ void add_hint_options(CLI::App& command, HintOptions& options)
         ->type_name("X,Y,W,H");
 }
 
-void add_scene_options(CLI::App& command, SceneOptions& options)
+void add_scene_choice(CLI::App& command, SceneOptions& options)
 {
     command
         .add_option("scene", options.scene,
@@ -51,12 +51,17 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
                     "Mask of that photograph, white in the wound; without a mask the photograph is segmented")
         ->type_name("PICTURE");
     add_hint_options(command, options.hints);
-    command.add_option("--days", options.days, "Days to show: first:last:step, or a list such as 0,5,12")
-        ->type_name("DAYS");
     command.add_option("--size", options.size, "Size of the pictures, for example 1280x720")
         ->type_name("WxH");
     command.add_option("--mode", options.mode, "The paper's equations: published (as printed) or corrected")
         ->check(CLI::IsMember({"published", "corrected"}));
+}
+
+void add_scene_options(CLI::App& command, SceneOptions& options)
+{
+    add_scene_choice(command, options);
+    command.add_option("--days", options.days, "Days to show: first:last:step, or a list such as 0,5,12")
+        ->type_name("DAYS");
     command.add_flag("--msaa", options.msaa, "Four samples per pixel");
     command
         .add_option("--device", options.device,

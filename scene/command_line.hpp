@@ -27,6 +27,9 @@ struct SceneOptions
     bool msaa = false, validation = false;
 };
 
+/// What is shown: the scene file, and what overrides its fields.
+void add_scene_choice(CLI::App& command, SceneOptions& options);
+/// That, the days, and how and on which device they are drawn.
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
 /// The scene with the overrides applied. Throws base::InputError.

@@ -7,16 +7,15 @@
 #include <fmt/format.h>
 #include <future>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgproc.hpp>
 
+#include "apps/compare/against_reference.hpp"
+#include "apps/compare/page.hpp"
 #include "base/axis.hpp"
 #include "base/color.hpp"
-#include "base/draw_text.hpp"
 #include "base/file.hpp"
 #include "base/image_io.hpp"
 #include "base/input_error.hpp"
 #include "base/number_option.hpp"
-#include "base/palette.hpp"
 #include "base/progress.hpp"
 #include "base/statistics.hpp"
 #include "scene/command_line.hpp"
@@ -29,75 +28,7 @@ namespace compare_command {
 namespace {
 using nlohmann::json;
 
-struct CompareOptions : scene::SceneOptions
-{
-    std::string other; // file of the second scene
-    std::filesystem::path out = "out/compare";
-    std::vector<std::string> views;
-    int rounds = 9; // of the cost measurement, for each scene
-};
-
-// ---- The page: one row per picture, A | B | difference, and a colour scale
-
-constexpr int cell_width = 420, gap = 12, title_height = 44, label_height = 30, bar_width = 90;
 constexpr std::size_t max_rows = 24; // evenly spaced among all pictures
-
-struct Row
-{
-    cv::Mat3b a, b;
-    cv::Mat1f difference;
-    cv::Mat1b head;
-    std::string label;
-};
-
-cv::Mat3b color_mapped(const cv::Mat1f& difference, double top)
-{
-    cv::Mat1b level;
-    difference.convertTo(level, CV_8U, 255 / top);
-    cv::Mat bgr;
-    cv::applyColorMap(level, bgr, cv::COLORMAP_INFERNO);
-    cv::Mat3b rgb;
-    cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
-    return rgb;
-}
-
-void draw_color_scale(cv::Mat3b& page, cv::Rect area, double top)
-{
-    cv::Mat1f ramp(area.height, 1);
-    for (int y = 0; y < area.height; ++y)
-        ramp(y) = float(top * (area.height - 1 - y) / std::max(1, area.height - 1));
-    cv::resize(color_mapped(ramp, top), page(area), area.size(), 0, 0, cv::INTER_NEAREST);
-    for (const double share : {0., .25, .5, .75, 1.})
-        base::draw_text(page, fmt::format("{}{:g}", share == 1 ? ">= " : "", share * top),
-                        {area.br().x + 4, int(area.br().y - share * (area.height - 12))});
-}
-
-cv::Mat3b draw_page(const std::array<std::string, 3>& titles, const std::vector<Row>& rows, double top)
-{
-    const int cell_height = std::max(1, rows[0].a.rows * cell_width / rows[0].a.cols);
-    cv::Mat3b page(title_height + int(rows.size()) * (cell_height + label_height) + gap,
-                   gap + 3 * (cell_width + gap) + bar_width, base::rgb_of(base::palette::paper));
-    const auto paste = [&](const cv::Mat3b& picture, int column, int y) {
-        cv::resize(picture, page(cv::Rect(gap + column * (cell_width + gap), y, cell_width, cell_height)),
-                   {cell_width, cell_height}, 0, 0, cv::INTER_AREA);
-    };
-    for (int column = 0; column < 3; ++column)
-        base::draw_text(page, titles[std::size_t(column)],
-                        {gap + column * (cell_width + gap), title_height - 16}, {.height = 14});
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const int y = title_height + int(i) * (cell_height + label_height);
-        paste(rows[i].a, 0, y);
-        paste(rows[i].b, 1, y);
-        cv::Mat3b map = color_mapped(rows[i].difference, top);
-        map.setTo(cv::Scalar(225, 225, 228), ~rows[i].head);
-        paste(map, 2, y);
-        base::draw_text(page, rows[i].label, {gap, y + cell_height + 20}, {.height = 11});
-    }
-    draw_color_scale(page, {gap + 3 * (cell_width + gap), title_height, 18, cell_height}, top);
-    return page;
-}
-
-// ---- The comparison
 
 std::string name_of(const std::string& file)
 {
@@ -182,7 +113,8 @@ void run_compare(const CompareOptions& options)
     stage::DrawOptions drawing;
     drawing.size = scenes[0].size;
     json days = json::array();
-    std::vector<Row> rows;
+    std::vector<PageRow> rows;
+    std::vector<ColorDifference> differences; // of the rows
     double top = 0;
     const std::size_t stride = (shots[0].size() + max_rows - 1) / max_rows;
     for (std::size_t i = 0; i < shots[0].size(); ++i) {
@@ -195,9 +127,10 @@ void run_compare(const CompareOptions& options)
         if (i % stride == 0) {
             drawing.transparent = false;
             const std::string view = shots[0][i].view.empty() ? "" : "   " + shots[0][i].view;
+            differences.push_back(difference);
             rows.push_back(
-                {stage::draw(renderer, a, shots[0][i], drawing).picture,
-                 stage::draw(renderer, b, shots[1][i], drawing).picture, difference.map, difference.head,
+                {{stage::draw(renderer, a, shots[0][i], drawing).picture,
+                  stage::draw(renderer, b, shots[1][i], drawing).picture},
                  fmt::format(
                      "day {:g}{}   dE2000 on the head: mean {:.2f}, 95 % below {:.2f}, at most {:.2f}",
                      shots[0][i].day, view, difference.mean, difference.percentile_95, difference.max)});
@@ -210,16 +143,18 @@ void run_compare(const CompareOptions& options)
     progress.clear();
 
     const std::string name_a = name_of(options.scene), name_b = name_of(options.other);
+    top = base::round_up(std::max(top, .1));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i].cells.push_back(color_mapped(differences[i].map, top, differences[i].head));
     base::write_png(options.out / "compare.png",
-                    draw_page({"A: " + name_a, "B: " + name_b, "difference, dE2000"}, rows,
-                              base::round_up(std::max(top, .1))));
+                    draw_page({"A: " + name_a, "B: " + name_b, "difference, dE2000"}, rows, top));
     stage::fail_on_validation(renderer.device);
     base::write_json(options.out / "compare.json", {{"device", renderer.device.info().name},
                                                     {"a", scene::to_json(scenes[0])},
                                                     {"b", scene::to_json(scenes[1])},
                                                     {"days", days},
                                                     {"cost", cost}});
-    for (const Row& row : rows)
+    for (const PageRow& row : rows)
         fmt::print("{}\n", row.label);
     fmt::print("forward pass: A {:.1f} ms, B {:.1f} ms, B / A {:.2f} (medians of {}, drawn alternately)\n"
                "compare.png and compare.json in {}\n",
@@ -272,8 +207,8 @@ void add(CLI::App& program)
     command
         ->add_option("other", options->other,
                      "Second scene, B, of the same size and days; the options below apply to both")
-        ->required()
         ->type_name("OTHER.json");
+    add_reference_options(*command, options->reference);
     command
         ->add_option("--views", options->views,
                      "Views to compare, as in cicatrix capture, separated by commas")
@@ -283,14 +218,23 @@ void add(CLI::App& program)
         ->add_option("--rounds", options->rounds, "Number of times each scene is drawn to measure its cost")
         ->transform(base::whole_number_from(1, 1000))
         ->capture_default_str();
-    command->add_option("--out", options->out, "Folder for compare.png and compare.json")
+    command
+        ->add_option("--out", options->out,
+                     "Folder for compare.png and compare.json, and with --reference the maps")
         ->capture_default_str()
         ->type_name("DIR");
     command->footer("Example: cicatrix compare scenes/translucency_published.json "
                     "scenes/translucency_bounded.json --days 0 --out out/translucency\n"
                     "A difference of 1 (CIEDE2000) is just noticeable. All settings of a scene file can be "
-                    "compared: shading models, lights, tissue, healing.");
-    command->callback([options] { run_compare(*options); });
+                    "compared: shading models, lights, tissue, healing.\n"
+                    "Against the truth: cicatrix compare scene.json --reference --noise 0.5 --out out/truth");
+    command->callback([options] {
+        if (options->reference.wanted)
+            return compare_with_reference(*options);
+        if (options->other.empty())
+            throw CLI::RequiredError("other or --reference");
+        run_compare(*options);
+    });
 }
 
 } // namespace compare_command

@@ -3,17 +3,19 @@
 #include <gtest/gtest.h>
 
 #include "base/color.hpp"
+#include "base/tone_curve.hpp"
 #include "engine/gpu/texture.hpp"
 #include "tests/support/gpu.hpp"
 
 namespace {
 
-cv::Mat4b encode(const cv::Mat4f& linear, float exposure, passes::Highlights highlights)
+cv::Mat4b encode(const cv::Mat4f& linear, float exposure, passes::Highlights highlights,
+                 const passes::Backdrop& backdrop = {})
 {
     const gpu::Texture texture(gpu_test::device(), linear, gpu::Encoding::Linear, false, "hdr");
     graph::Graph graph;
     const graph::ImageId encoded =
-        passes::add_tonemap(graph, graph.import("hdr", texture), exposure, highlights);
+        passes::add_tonemap(graph, graph.import("hdr", texture), exposure, highlights, backdrop);
     const graph::ReadbackId back = graph.readback("encoded", encoded);
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
     return cv::Mat4b(executor.run(graph).mat(back).clone());
@@ -80,4 +82,24 @@ TEST_F(Tonemap, InvalidColorsBecomeBlackOrWhite)
     EXPECT_EQ(encoded(0, 0), cv::Vec4b(0, 0, 0, 255));
     EXPECT_EQ(encoded(0, 1), cv::Vec4b(255, 255, 255, 255));
     EXPECT_EQ(encoded(0, 2), cv::Vec4b(0, 0, 0, 255));
+}
+
+// What the path tracer's pictures are encoded with, which see no graphics device.
+TEST_F(Tonemap, IsThatOfTheCpu)
+{
+    cv::Mat4f linear(61, 47);
+    for (int y = 0; y < linear.rows; ++y)
+        for (int x = 0; x < linear.cols; ++x) {
+            const float alpha = static_cast<float>(y) / 60, v = 1.5f * alpha * static_cast<float>(x) / 46;
+            linear(y, x) = {v, v * v, 0.05f * v, alpha}; // premultiplied
+        }
+    for (const float stops : {-1.5f, 0.0f, 1.0f}) {
+        const cv::Mat4b shader = encode(linear, stops, passes::Highlights::SoftShoulder,
+                                        passes::backdrop_of(passes::ViewportTile({47, 61})));
+        const cv::Mat3b cpu = base::encode_picture(linear, stops);
+        for (int y = 0; y < linear.rows; ++y)
+            for (int x = 0; x < linear.cols; ++x)
+                for (int c = 0; c < 3; ++c) // a value halfway between codes may round either way
+                    EXPECT_NEAR(shader(y, x)[c], cpu(y, x)[c], 1) << x << ", " << y << ", " << stops;
+    }
 }

@@ -196,21 +196,26 @@ base::Color blend(BlendModel model, const base::Color& wound, const base::Color&
     return (1 - (of_reflectance + r)) * wound + of_reflectance * reflectance + r * skin;
 }
 
-base::Color shade(const Shading& shading, const Light& light, const ShadedPoint& point, double visibility)
+LightSample sample_light(const Light& light, const cv::Vec3d& position)
 {
     constexpr double nearest = 1e-3; // m; smallest distance, for a light on or inside the surface
-    const cv::Vec3d offset = light.position - point.position;
-    const bool directional = light.kind == LightKind::Directional;
-    const double metres = directional ? offset.dot(light.direction) : std::max(cv::norm(offset), nearest);
-    const cv::Vec3d to_light = directional ? light.direction : offset / metres;
+    const cv::Vec3d offset = light.position - position;
+    if (light.kind == LightKind::Directional)
+        return {light.direction, offset.dot(light.direction), light.strength};
+    const double metres = std::max(cv::norm(offset), nearest);
     const double falloff = light.kind == LightKind::Point ? square(light.reference_distance_m / metres) : 1;
+    return {offset / metres, metres, falloff * light.strength};
+}
 
-    const cv::Vec3d incident = point.frame * to_light, outgoing = point.frame * point.to_viewer;
+base::Color shade(const Shading& shading, const Light& light, const ShadedPoint& point, double visibility)
+{
+    const LightSample sample = sample_light(light, point.position);
+    const cv::Vec3d incident = point.frame * sample.direction, outgoing = point.frame * point.to_viewer;
     const double cosine = std::max(0.0, incident[2]);
     const DistanceMap& map = light.translucency_distance;
-    const double d = std::max(0.0, map.scale * std::max(0.0, metres) + map.offset);
+    const double d = std::max(0.0, map.scale * std::max(0.0, sample.distance_m) + map.offset);
 
-    const base::Color direct = visibility * falloff * cosine * light.strength;
+    const base::Color direct = visibility * cosine * sample.strength;
     const double specular =
         shading.rho_s * ward(shading.ward_model, shading.alpha_x, shading.alpha_y, incident, outgoing);
     const base::Color scattered =

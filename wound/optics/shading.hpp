@@ -92,6 +92,15 @@ struct Light
     DistanceMap translucency_distance;
 };
 
+/// A light as a point sees it.
+struct LightSample
+{
+    cv::Vec3d direction;  // unit, towards the light
+    double distance_m;    // of a directional light from its plane, below 0 beyond it
+    base::Color strength; // radiance of a white diffuser at the point that faces the light
+};
+LightSample sample_light(const Light& light, const cv::Vec3d& position);
+
 /// Smallest and largest distance d, in the paper's unit, from a light to the points of a ball.
 struct DistanceRange
 {

@@ -1,0 +1,182 @@
+#include "reference/path_tracer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "reference/directions.hpp"
+
+namespace reference {
+namespace {
+
+const base::Color black(0, 0, 0);
+
+glm::dvec3 to_glm(const cv::Vec3d& v)
+{
+    return {v[0], v[1], v[2]};
+}
+
+double largest(const base::Color& color)
+{
+    return std::max({color[0], color[1], color[2]});
+}
+
+} // namespace
+
+PathTracer::PathTracer(const scene::LoadedScene& scene, const Surfaces& surfaces, const DayWounds& wounds,
+                       const Levels& levels)
+    : scene_(scene), shading_(scene.scene.shading), surfaces_(surfaces), wounds_(wounds), levels_(levels),
+      ambient_(levels.ambient ? shading_.ambient : black)
+{
+}
+
+Radiance PathTracer::along(const glm::dvec3& origin, const glm::dvec3& direction, Random& random) const
+{
+    const glm::dvec3 unit = glm::normalize(direction), to_viewer = -unit;
+    double from = 0;
+    while (const std::optional<head::Hit> hit = surfaces_.seen(origin, unit, from)) {
+        const SurfacePoint point = surfaces_.point(*hit);
+        if (point.look->blended && random() >= point.alpha) { // seen through
+            from = hit->distance + 1e-7;
+            continue;
+        }
+        const glm::dvec3 normal = bent_to_viewer(point.normal, to_viewer);
+        Radiance radiance{black, black, 1};
+        if (shading_.lambert)
+            radiance.diffuse = reflected(point, normal, 0, random);
+        if (shading_.ward && levels_.specular)
+            radiance.specular = specular(point, normal, to_viewer);
+        return radiance;
+    }
+    return {};
+}
+
+double PathTracer::visible(const SurfacePoint& point, const optics::LightSample& light,
+                           bool directional) const
+{
+    if (!levels_.shadows || !shading_.shadow)
+        return 1;
+    const double reach = directional ? std::numeric_limits<double>::infinity() : light.distance_m;
+    return surfaces_.blocked(point.lifted, to_glm(light.direction), reach) ? 0 : 1;
+}
+
+base::Color PathTracer::direct(const SurfacePoint& point, const glm::dvec3& normal) const
+{
+    base::Color sum = black;
+    for (const optics::Light& light : scene_.lights) {
+        const optics::LightSample sample = optics::sample_light(light, {point.at.x, point.at.y, point.at.z});
+        const double cosine = glm::dot(normal, to_glm(sample.direction));
+        if (cosine > 0 && largest(sample.strength) > 0)
+            sum += cosine * visible(point, sample, light.kind == optics::LightKind::Directional) *
+                   sample.strength;
+    }
+    return sum;
+}
+
+base::Color PathTracer::reflected(const SurfacePoint& point, const glm::dvec3& normal, int bounce,
+                                  Random& random) const
+{
+    const base::Color albedo = shading_.rho_d * point.skin.skin.albedo;
+    if (!levels_.subsurface || point.look->surface != head::Surface::Skin)
+        return albedo.mul(received(point, normal, albedo, bounce, random));
+    const Medium medium = wounds_.medium(point.skin, albedo);
+    const std::uint64_t key = random.bits();
+    const WalkEnds ends = random_walk(medium, surfaces_, point.at, point.flat, key);
+    return bounce == 0 ? by_channel(ends, random) + flat_correction(point, normal, medium, albedo, key)
+                       : by_one_exit(ends, bounce, random);
+}
+
+base::Color PathTracer::flat_correction(const SurfacePoint& point, const glm::dvec3& normal,
+                                        const Medium& medium, const base::Color& albedo,
+                                        std::uint64_t key) const
+{
+    const WalkEnds flat = random_walk(medium, HalfSpace(point.at, point.flat), point.at, point.flat, key);
+    base::Color known = albedo;
+    for (double& channel : known.val)
+        channel = std::min(channel, AlbedoTable::largest_diffuse);
+    return (known - flat.reflected).mul(direct(point, normal) + point.skin.skin.occlusion * ambient_);
+}
+
+base::Color PathTracer::by_channel(const WalkEnds& ends, Random& random) const
+{
+    base::Color sum = black;
+    std::array<bool, 3> done{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        if (done[c] || ends.reflected[int(c)] <= 0)
+            continue;
+        base::Color weight = black; // of the channels that drew this exit
+        for (std::size_t k = c; k < 3; ++k)
+            if (!done[k] && ends.reflected[int(k)] > 0 && ends.exits[k].at == ends.exits[c].at) {
+                done[k] = true;
+                weight[int(k)] = ends.reflected[int(k)];
+            }
+        const SurfacePoint exit = surfaces_.point(ends.exits[c].surface);
+        sum += weight.mul(received(exit, exit.normal, weight, 0, random));
+    }
+    return sum;
+}
+
+base::Color PathTracer::by_one_exit(const WalkEnds& ends, int bounce, Random& random) const
+{
+    const double all = ends.reflected[0] + ends.reflected[1] + ends.reflected[2];
+    if (all <= 0)
+        return black;
+    const double which = random() * all;
+    const std::size_t channel = which < ends.reflected[0]                       ? 0
+                                : which < ends.reflected[0] + ends.reflected[1] ? 1
+                                                                                : 2;
+    const WalkExit& drawn = ends.exits[channel];
+    // An exit is drawn with the probability (w0 + w1 + w2) / all, w its weights.
+    const base::Color weight = drawn.weight * (all / (drawn.weight[0] + drawn.weight[1] + drawn.weight[2]));
+    const SurfacePoint exit = surfaces_.point(drawn.surface);
+    return weight.mul(received(exit, exit.normal, weight, bounce, random));
+}
+
+base::Color PathTracer::received(const SurfacePoint& point, const glm::dvec3& normal,
+                                 const base::Color& importance, int bounce, Random& random) const
+{
+    base::Color sum = direct(point, normal);
+    const bool last = bounce >= levels_.bounces;
+    const double open = point.skin.skin.occlusion; // of a wound's hollow, which is in no triangle
+    if (last && ambient_ == black)
+        return sum;
+    const glm::dvec3 towards = direction_about(normal, std::sqrt(1 - random()), random());
+    const std::optional<head::Hit> hit = surfaces_.met(point.lifted, towards);
+    if (!hit)
+        return sum + open * ambient_;
+    if (last || !(hit->front || surfaces_.look(*hit).double_sided))
+        return sum;                                                      // the inside of a bust is black
+    const double chance = std::min(1.0, 4 * open * largest(importance)); // Russian roulette
+    if (random() >= chance)
+        return sum;
+    const SurfacePoint next = surfaces_.point(*hit);
+    return sum + open / chance * reflected(next, next.normal, bounce + 1, random);
+}
+
+base::Color PathTracer::specular(const SurfacePoint& point, const glm::dvec3& normal,
+                                 const glm::dvec3& to_viewer) const
+{
+    optics::Shading gloss = wound::with_gloss(shading_, point.skin.skin);
+    gloss.rho_s *= point.look->specular;
+    gloss.alpha_x *= point.look->slope;
+    gloss.alpha_y *= point.look->slope;
+    base::Color sum = black;
+    if (gloss.rho_s <= 0)
+        return sum;
+    const glm::dmat3 frame = tangent_frame(normal, point.tangent);
+    const glm::dvec3 outgoing = to_viewer * frame;
+    for (const optics::Light& light : scene_.lights) {
+        const optics::LightSample sample = optics::sample_light(light, {point.at.x, point.at.y, point.at.z});
+        const glm::dvec3 incident = to_glm(sample.direction) * frame;
+        const double lobe =
+            optics::ward(gloss.ward_model, gloss.alpha_x, gloss.alpha_y, {incident.x, incident.y, incident.z},
+                         {outgoing.x, outgoing.y, outgoing.z});
+        if (lobe > 0 && largest(sample.strength) > 0)
+            sum += gloss.rho_s * lobe * incident.z *
+                   visible(point, sample, light.kind == optics::LightKind::Directional) * sample.strength;
+    }
+    return sum;
+}
+
+} // namespace reference

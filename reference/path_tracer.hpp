@@ -1,0 +1,64 @@
+// Light along one camera ray: the scene's lights, surroundings and materials as the rasteriser has them, with
+// everything that it approximates done by tracing rays.
+//
+//   diffuse   C rho_d (direct light + surroundings + light from other skin), of the point itself or, with
+//             subsurface scattering, of where a random walk from it leaves the skin. C rho_d is the diffuse
+//             albedo for all light: the surroundings' too.
+//   specular  the scene's lobe, for every light that reaches the point
+//
+// Units as optics::Light has them: a light's strength is the radiance of a white diffuser that faces it, so
+// that direct light is the sum of strength x cosine, without pi.
+#pragma once
+#include "reference/levels.hpp"
+#include "reference/surface.hpp"
+
+namespace reference {
+
+/// Linear radiance, premultiplied.
+struct Radiance
+{
+    base::Color diffuse{0, 0, 0}, specular{0, 0, 0};
+    double alpha = 0; // 1 where the ray meets the head
+};
+
+class PathTracer
+{
+  public:
+    /// Keeps references to all of them.
+    PathTracer(const scene::LoadedScene& scene, const Surfaces& surfaces, const DayWounds& wounds,
+               const Levels& levels);
+
+    /// `direction` may have any length.
+    Radiance along(const glm::dvec3& origin, const glm::dvec3& direction, Random& random) const;
+
+  private:
+    /// Light of the lights that falls on a point, as the radiance of a white diffuser there.
+    base::Color direct(const SurfacePoint& point, const glm::dvec3& normal) const;
+    /// Light that falls on a point, from lights, surroundings and other skin. `importance`: its weight in
+    /// what is seen, for Russian roulette. `bounce`: how often it has gone from skin to skin.
+    base::Color received(const SurfacePoint& point, const glm::dvec3& normal, const base::Color& importance,
+                         int bounce, Random& random) const;
+    /// Light that leaves a point diffusely.
+    base::Color reflected(const SurfacePoint& point, const glm::dvec3& normal, int bounce,
+                          Random& random) const;
+    /// The same through a walk's exits: of each channel, or of one exit for all of them.
+    base::Color by_channel(const WalkEnds& ends, Random& random) const;
+    base::Color by_one_exit(const WalkEnds& ends, int bounce, Random& random) const;
+    /// A control variate: zero on average, and where the skin is flat and evenly lit it takes away all noise
+    /// of the walk with this key. The same walk in a half space reflects nearly as much, and what a half
+    /// space reflects on average is known: `albedo`.
+    base::Color flat_correction(const SurfacePoint& point, const glm::dvec3& normal, const Medium& medium,
+                                const base::Color& albedo, std::uint64_t key) const;
+    base::Color specular(const SurfacePoint& point, const glm::dvec3& normal,
+                         const glm::dvec3& to_viewer) const;
+    double visible(const SurfacePoint& point, const optics::LightSample& light, bool directional) const;
+
+    const scene::LoadedScene& scene_;
+    const optics::Shading& shading_;
+    const Surfaces& surfaces_;
+    const DayWounds& wounds_;
+    const Levels levels_;
+    const base::Color ambient_;
+};
+
+} // namespace reference
