@@ -113,7 +113,7 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
 
     pass.constant("LIGHTS", std::uint32_t(input.lights.size()));
     pass.constant("LAMBERT", shading.lambert);
-    pass.constant("TRANSLUCENCY", shading.translucency);
+    pass.constant("TRANSLUCENCY", shading.translucent());
     pass.constant("WARD", shading.ward);
     pass.constant("NORMAL_MAP", shading.normal_map);
     pass.constant("SHADOW", input.shadow.has_value());

@@ -29,7 +29,7 @@ shared::ShadingParams shading_params(const optics::Shading& shading)
         .translucency_bound_4 =
             static_cast<float>(std::pow(std::max(shading.translucency_bound(), 1e-9), -4)),
         .slope = glm::vec2(glm::dvec2(shading.alpha_x, shading.alpha_y)),
-        .ambient = to_glm(shading.ambient),
+        .ambient = to_glm(shading.rho_d * shading.ambient),
     };
 }
 

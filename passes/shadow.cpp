@@ -59,8 +59,11 @@ std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::
         parallel ? glm::orthoRH_ZO(-half, half, -half, half, near, far)
                  : glm::frustumRH_ZO(-half * near, half * near, -half * near, half * near, near, far);
     projection[1][1] = -projection[1][1]; // Vulkan's y points down
-    return shared::Shadow{.clip_from_world = glm::mat4(projection * view),
-                          .texel = static_cast<float>(2 * half / shadow_size)};
+    const glm::dmat4 clip_from_world = projection * view;
+    return shared::Shadow{.clip_from_world = glm::mat4(clip_from_world),
+                          .clip_plane_from_world = glm::mat4(glm::transpose(glm::inverse(clip_from_world))),
+                          .texel = static_cast<float>(2 * half / shadow_size),
+                          .size = static_cast<float>(shadow_size)};
 }
 
 graph::ImageId add_shadow(graph::Graph& graph, const shared::Shadow& shadow, const graph::Mesh& mesh,

@@ -13,7 +13,7 @@
 
 namespace passes {
 
-inline constexpr std::uint32_t shadow_size = 512; // texels; 0.7 mm on a head: edges are about 2 mm soft
+inline constexpr std::uint32_t shadow_size = 1024; // texels; .55 mm on a bust: edges are about 1.7 mm soft
 
 /// The light's frustum (parallel for a directional light) that tightly encloses the box. None when the light
 /// is inside the box or too near for one shadow map to cover it: such a light casts no shadow.

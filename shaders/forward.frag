@@ -28,6 +28,7 @@ layout(location = 2) in vec4 v_tangent;
 layout(location = 3) in vec2 v_uv;
 layout(location = 4) in vec3 v_subsurface;
 layout(location = 5) in vec4 v_shadow_place;
+layout(location = 6) in vec2 v_shadow_slope;
 layout(location = 0) out vec4 out_color;
 
 layout(scalar, binding = 0) uniform View_ { View view; };
@@ -75,13 +76,13 @@ void main()
     params.slope *= part.slope * (1 - 0.4 * skin.wetness) * (1 - 0.25 * skin.tautness);
     params.rho_s *= part.specular * (1 - 0.4 * skin.wetness + 0.15 * skin.tautness);
     const vec3 local_viewer = to_viewer * frame;
-    vec3 diffuse = AMBIENT ? params.ambient * skin.occlusion : vec3(0); // multiplied by the albedo C below
+    vec3 diffuse = AMBIENT ? params.ambient * skin.occlusion : vec3(0); // times rho_d already, and the albedo C below
     vec3 mirrored = vec3(0);
     for (uint i = 0; i < LIGHTS; ++i)
     {
         LightSample light = sample_light(lighting.light[i], v_position);
         if (SHADOW && i == 0)
-            light.strength *= shadow_visibility(shadow_map, v_shadow_place);
+            light.strength *= shadow_visibility(shadow_map, v_shadow_place, v_shadow_slope);
         const vec3 local_light = light.direction * frame;
         if (LAMBERT)
             diffuse += surface_diffuse(params, light, local_light);

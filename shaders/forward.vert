@@ -28,6 +28,7 @@ layout(location = 2) out vec4 v_tangent;
 layout(location = 3) out vec2 v_uv;
 layout(location = 4) out vec3 v_subsurface;
 layout(location = 5) out vec4 v_shadow_place;
+layout(location = 6) out vec2 v_shadow_slope;
 
 void main()
 {
@@ -40,7 +41,12 @@ void main()
         for (uint i = 0; i < LIGHTS; ++i)
             v_subsurface += subsurface_diffuse(TRANSLUCENCY_MODEL, shading, lighting.light[i], position);
     v_shadow_place = vec4(0);
+    v_shadow_slope = vec2(0);
     if (SHADOW)
-        v_shadow_place = shadow_place(shadow, position, normal, sample_light(lighting.light[0], position).direction);
+    {
+        const vec3 to_light = sample_light(lighting.light[0], position).direction;
+        v_shadow_place = shadow_place(shadow, position, normal, to_light);
+        v_shadow_slope = shadow_slope(shadow, position, normal, to_light);
+    }
     gl_Position = view.clip_from_world * vec4(position, 1);
 }

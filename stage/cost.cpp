@@ -30,13 +30,15 @@ json measure_cost(const gpu::Device& device, const graph::ShaderLibrary& library
                   std::vector<std::string>& lines, int rounds)
 {
     const optics::Shading everything = stage.scene().shading;
-    optics::Shading opaque = everything, plain = everything;
-    opaque.translucency = false;
-    plain.translucency = plain.normal_map = plain.shadow = false;
+    optics::Shading translucent = everything, opaque = everything, plain = everything;
+    translucent.transport = optics::Transport::Published;
+    translucent.translucency = true;
+    opaque.translucency = plain.translucency = false;
+    plain.normal_map = plain.shadow = false;
     plain.ambient = {0, 0, 0};
     const std::vector<Measurement> measured =
         measure(device, library,
-                {variant("everything", stage, everything), variant("without_translucency", stage, opaque),
+                {variant("everything", stage, translucent), variant("without_translucency", stage, opaque),
                  variant("ward_lambert_only", stage, plain), variant("moving_day", stage, everything, 1)},
                 {.warm_up = 1, .counted = 0, .timed = rounds});
 

@@ -23,56 +23,7 @@ namespace compare_command {
 namespace {
 using nlohmann::json;
 
-constexpr std::uint32_t supersampling = 4; // of our picture, per axis
-
-/// Our picture as the truth is sampled: the mean of many places in each pixel. Premultiplied radiance.
-cv::Mat4f supersampled(stage::Renderer& renderer, const stage::Stage& stage, const scene::Shot& shot)
-{
-    stage::DrawOptions drawing;
-    for (std::size_t axis = 0; axis < 2; ++axis)
-        drawing.size[axis] = supersampling * stage.scene().size[axis];
-    drawing.transparent = drawing.radiance = true;
-    const cv::Mat4f large = stage::draw(renderer, stage, shot, drawing).radiance;
-    cv::Mat4f mean;
-    cv::resize(large, mean, large.size() / int(supersampling), 0, 0, cv::INTER_AREA);
-    return mean;
-}
-
-base::Lab shown_lab(const cv::Vec4f& radiance, double exposure_stops, double height)
-{
-    base::Color seen =
-        base::on_backdrop({radiance[0], radiance[1], radiance[2]}, radiance[3], exposure_stops, height);
-    for (double& channel : seen.val)
-        channel = std::clamp(channel, 0.0, 1.0);
-    return base::lab_from_linear(seen);
-}
-
-PixelErrors errors_of(const cv::Mat4f& ours, const cv::Mat4f& truth, const cv::Mat1f& noise, double exposure)
-{
-    PixelErrors errors{cv::Mat1f(ours.size(), 0.f), noise, cv::Mat3f(ours.size(), cv::Vec3f::all(0))};
-    for (int y = 0; y < ours.rows; ++y)
-        for (int x = 0; x < ours.cols; ++x) {
-            const double height = (y + .5) / ours.rows;
-            const base::Lab a = shown_lab(ours(y, x), exposure, height),
-                            b = shown_lab(truth(y, x), exposure, height);
-            errors.de(y, x) = float(base::delta_e2000(a, b));
-            errors.lab(y, x) = {float(a.l - b.l), float(a.a - b.a), float(a.b - b.b)};
-        }
-    return errors;
-}
-
-/// Pixels of a region that the head covers whole, in the picture and in the truth.
-cv::Mat1b covered(const cv::Mat1b& region, const cv::Mat4f& ours, const cv::Mat4f& truth)
-{
-    cv::Mat1b inside = region.clone();
-    for (int y = 0; y < inside.rows; ++y)
-        for (int x = 0; x < inside.cols; ++x)
-            if (ours(y, x)[3] < .999f || truth(y, x)[3] < .999f)
-                inside(y, x) = 0;
-    return inside;
-}
-
-json json_of(const RegionError& error)
+json json_of(const stage::RegionError& error)
 {
     if (error.pixels == 0)
         return nullptr;
@@ -125,53 +76,42 @@ class Comparison
   private:
     json compare(const scene::Shot& shot)
     {
-        const reference::Request request{.camera = shot.camera,
-                                         .size = stage_.scene().size,
-                                         .day = shot.day,
-                                         .levels = options_.reference.levels};
-        const reference::Truth truth =
-            reference::find_truth(stage_.loaded(), request, until_, progress_, notes_);
-        if (truth.interrupted || truth.picture.passes() < 2)
-            throw base::Interrupted();
-        progress_.show(shot.name);
-        const double exposure = stage_.scene().exposure_stops;
-        const cv::Mat4f ours = supersampled(renderer_, stage_, shot), traced = truth.picture.radiance();
-        const PixelErrors errors = errors_of(ours, traced, truth.picture.noise_map(exposure), exposure);
-        reference::Regions regions = reference::find_regions(stage_.loaded(), request);
+        const stage::TruthError result = stage::measure_truth_error(
+            renderer_, stage_, shot, options_.reference.levels, until_, progress_, notes_);
+        const reference::Truth& traced = result.traced;
         json record{{"day", shot.day},
-                    {"samples", truth.picture.samples()},
-                    {"noise_de", truth.noise_de},
-                    {"reference_cpu_seconds", truth.cpu_seconds}};
+                    {"samples", traced.picture.samples()},
+                    {"noise_de", traced.noise_de},
+                    {"reference_cpu_seconds", traced.cpu_seconds}};
         if (!shot.view.empty())
             record["view"] = shot.view;
-        cv::Mat1b shown(ours.size(), uchar(0));
         std::string label;
-        for (std::size_t i = 0; i < regions.size(); ++i) {
-            regions[i] = covered(regions[i], ours, traced);
-            shown |= regions[i];
-            const RegionError error = error_in(regions[i], errors);
+        for (std::size_t i = 0; i < result.regions.size(); ++i) {
+            const stage::RegionError error = stage::error_in(result.regions[i], result.errors);
             record["regions"][std::string(reference::region_names[i])] = json_of(error);
             if (error.pixels > 0)
                 label += fmt::format("{}{} {:.2f}", label.empty() ? "" : ", ", reference::region_names[i],
                                      error.mean);
-            pool(i, regions[i], errors);
+            pool(i, result.regions[i], result.errors);
         }
-        const cv::Mat3b picture = base::encode_picture(ours, exposure),
-                        truth_picture = base::encode_picture(traced, exposure);
+        const double exposure = stage_.scene().exposure_stops;
+        const cv::Mat3b picture = base::encode_picture(result.ours, exposure),
+                        truth_picture = base::encode_picture(result.truth, exposure);
         const cv::Mat1f flip = base::flip(truth_picture, picture);
-        record["flip"] = {{"mean_on_head", cv::countNonZero(shown) ? cv::mean(flip, shown)[0] : 0.},
-                          {"pixels_per_degree", base::usual_pixels_per_degree}};
-        write_maps(shot.name, {picture, truth_picture}, errors, flip, shown,
-                   regions_picture(regions, picture));
+        record["flip"] = {
+            {"mean_on_head", cv::countNonZero(result.shown) ? cv::mean(flip, result.shown)[0] : 0.},
+            {"pixels_per_degree", base::usual_pixels_per_degree}};
+        write_maps(shot.name, {picture, truth_picture}, result.errors, flip, result.shown,
+                   regions_picture(result.regions, picture));
         rows_.push_back({{picture, truth_picture},
                          fmt::format("day {:g}{}   mean dE2000: {}; noise of the truth {:.2f}", shot.day,
-                                     shot.view.empty() ? "" : " " + shot.view, label, truth.noise_de)});
-        errors_.push_back(errors);
-        shown_.push_back(shown);
+                                     shot.view.empty() ? "" : " " + shot.view, label, traced.noise_de)});
+        errors_.push_back(result.errors);
+        shown_.push_back(result.shown);
         return record;
     }
 
-    void pool(std::size_t region, const cv::Mat1b& where, const PixelErrors& errors)
+    void pool(std::size_t region, const cv::Mat1b& where, const stage::PixelErrors& errors)
     {
         for (int y = 0; y < where.rows; ++y)
             for (int x = 0; x < where.cols; ++x)
@@ -183,7 +123,7 @@ class Comparison
     }
 
     void write_maps(const std::string& name, const std::array<cv::Mat3b, 2>& pictures,
-                    const PixelErrors& errors, const cv::Mat1f& flip, const cv::Mat1b& shown,
+                    const stage::PixelErrors& errors, const cv::Mat1f& flip, const cv::Mat1b& shown,
                     const cv::Mat3b& regions) const
     {
         cv::Mat1f lightness;
@@ -205,7 +145,8 @@ class Comparison
         json regions;
         for (std::size_t i = 0; i < pooled_.size(); ++i) {
             const cv::Mat1b all(pooled_[i].de.size(), uchar(255));
-            const RegionError error = pooled_[i].de.empty() ? RegionError{} : error_in(all, pooled_[i]);
+            const stage::RegionError error =
+                pooled_[i].de.empty() ? stage::RegionError{} : stage::error_in(all, pooled_[i]);
             regions[std::string(reference::region_names[i])] = json_of(error);
             top = std::max(top, error.p999);
             if (error.pixels > 0)
@@ -241,42 +182,12 @@ class Comparison
     base::Progress progress_;
     std::vector<std::string> notes_;
     std::vector<PageRow> rows_;
-    std::vector<PixelErrors> errors_; // of the rows
+    std::vector<stage::PixelErrors> errors_; // of the rows
     std::vector<cv::Mat1b> shown_;
-    std::array<PixelErrors, reference::region_names.size()> pooled_; // a column per region
+    std::array<stage::PixelErrors, reference::region_names.size()> pooled_; // a column per region
 };
 
 } // namespace
-
-RegionError error_in(const cv::Mat1b& region, const PixelErrors& errors)
-{
-    RegionError error;
-    std::vector<float> values;
-    cv::Vec3d lab(0, 0, 0);
-    for (int y = 0; y < region.rows; ++y)
-        for (int x = 0; x < region.cols; ++x)
-            if (region(y, x)) {
-                values.push_back(errors.de(y, x));
-                error.noise += double(errors.noise(y, x));
-                error.mean += double(errors.de(y, x));
-                lab += cv::Vec3d(errors.lab(y, x));
-            }
-    error.pixels = values.size();
-    if (values.empty())
-        return error;
-    const double count = double(values.size());
-    error.noise /= count;
-    error.mean /= count;
-    error.l = lab[0] / count;
-    error.a = lab[1] / count;
-    error.b = lab[2] / count;
-    std::ranges::sort(values);
-    const auto quantile = [&](double share) { return double(values[std::size_t(share * (count - 1))]); };
-    error.p95 = quantile(.95);
-    error.p999 = quantile(.999);
-    error.max = double(values.back());
-    return error;
-}
 
 void add_reference_options(CLI::App& command, ReferenceOptions& options)
 {

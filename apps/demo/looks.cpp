@@ -66,7 +66,11 @@ void draw_terms(optics::Shading& shading)
 {
     ImGui::Checkbox("diffuse", &shading.lambert);
     ImGui::SameLine();
-    ImGui::Checkbox("translucency", &shading.translucency);
+    bool translucent = shading.translucent();
+    if (ImGui::Checkbox("translucency", &translucent)) {
+        shading.translucency = translucent;
+        shading.transport = translucent ? optics::Transport::Published : optics::Transport::Lambert;
+    }
     ImGui::SameLine();
     ImGui::Checkbox("gloss", &shading.ward);
     ImGui::Checkbox("pores", &shading.normal_map);

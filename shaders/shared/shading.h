@@ -29,7 +29,7 @@ struct ShadingParams
     float alpha, beta, gamma;       // eq. (6), for distances in the paper's unit
     float translucency_bound_4;     // W^-4, W the largest weight of the bounded translucency; 1e36 for W = 0
     vec2 slope;                     // alpha_x, alpha_y of eq. (7), 1e-4..1.5
-    vec3 ambient;                   // linear radiance of the surroundings, multiplied by ambient occlusion
+    vec3 ambient;                   // rho_d x linear radiance of the surroundings; multiplied by ambient occlusion
 };
 
 struct Light

@@ -8,8 +8,10 @@ namespace shared {
 
 struct Shadow
 {
-    mat4 clip_from_world; // Vulkan clip space of the light: x right, y down, depth 0..1
-    float texel;          // width of a texel, m, per unit of clip w: at clip w = 1 for a parallel light
+    mat4 clip_from_world;       // Vulkan clip space of the light: x right, y down, depth 0..1
+    mat4 clip_plane_from_world; // the same for planes (normal, -distance): its inverse, transposed
+    float texel;                // width of a texel, m, per unit of clip w: at clip w = 1 for a parallel light
+    float size;                 // texels along an edge of the depth image
 };
 
 #ifdef __cplusplus

@@ -61,7 +61,7 @@ TEST(Compare, MeasuresTheDifferenceAndRefusesOtherSizesAndDays)
     };
     const std::string size = "\"size\": \"96x96\", \"days\": [0, 9]";
     const std::string a = scene("a.json", size),
-                      b = scene("b.json", size + R"(, "shading": { "translucency": false })"),
+                      b = scene("b.json", size + R"(, "shading": { "rho_d": 0.7 })"),
                       large = scene("large.json", R"("size": "64x64", "days": [0, 9])"),
                       other = scene("other.json", R"("size": "96x96", "days": [0])");
     const auto compare = [&](const std::string& second) {

@@ -86,7 +86,9 @@ TEST(ShaderLayout, Shadow)
 {
     for (const char* stage : {"forward.vert", "shadow.vert"})
         gpu_test::expect_layout(stage, "Shadow", sizeof(Shadow),
-                                {CICATRIX_MEMBER(Shadow, clip_from_world), CICATRIX_MEMBER(Shadow, texel)});
+                                {CICATRIX_MEMBER(Shadow, clip_from_world),
+                                 CICATRIX_MEMBER(Shadow, clip_plane_from_world),
+                                 CICATRIX_MEMBER(Shadow, texel), CICATRIX_MEMBER(Shadow, size)});
 }
 
 TEST(ShaderLayout, Wound)

@@ -218,7 +218,8 @@ TEST_F(ShadowOnGpu, RunsOnlyWhenTheLightMovesAndAReceiverExists)
 
 TEST_F(ShadowOnGpu, SharedStructHasTheSameLayoutInBothLanguages)
 {
-    gpu_test::expect_layout(
-        "shadow_test.comp", "Shadow", sizeof(shared::Shadow),
-        {CICATRIX_MEMBER(shared::Shadow, clip_from_world), CICATRIX_MEMBER(shared::Shadow, texel)});
+    gpu_test::expect_layout("shadow_test.comp", "Shadow", sizeof(shared::Shadow),
+                            {CICATRIX_MEMBER(shared::Shadow, clip_from_world),
+                             CICATRIX_MEMBER(shared::Shadow, clip_plane_from_world),
+                             CICATRIX_MEMBER(shared::Shadow, texel), CICATRIX_MEMBER(shared::Shadow, size)});
 }

@@ -52,6 +52,7 @@ optics::Shading bare_color(optics::BlendModel model)
 {
     optics::Shading shading = optics::skin_shading();
     shading.lambert = shading.translucency = shading.ward = shading.normal_map = shading.shadow = false;
+    shading.rho_d = 1;
     shading.ambient = {1, 1, 1};
     shading.blend_model = model;
     return shading;

@@ -23,5 +23,6 @@ void main()
         return;
     Receiver r = receivers[index];
     vec4 in_light = shadow_place(shadow, r.position, r.normal, r.to_light);
-    imageStore(visibility, place, vec4(shadow_visibility(shadow_depth, in_light)));
+    vec2 slope = shadow_slope(shadow, r.position, r.normal, r.to_light);
+    imageStore(visibility, place, vec4(shadow_visibility(shadow_depth, in_light, slope)));
 }

@@ -15,6 +15,7 @@ namespace {
 optics::Shading bare_color(optics::Shading shading)
 {
     shading.lambert = shading.translucency = shading.ward = shading.normal_map = shading.shadow = false;
+    shading.rho_d = 1;
     shading.ambient = base::Color::all(1);
     return shading;
 }

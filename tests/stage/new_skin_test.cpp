@@ -144,7 +144,8 @@ TEST_F(NewSkin, ClosureIsNoJumpInAnyPixel)
 {
     Wall wall;
     const double closed = wound::closure_day(wound::Healing{}.curve),
-                 last = wound::day_below(wound::Healing{}.curve, wound::smallest_scale * wound::smallest_scale);
+                 last =
+                     wound::day_below(wound::Healing{}.curve, wound::smallest_scale * wound::smallest_scale);
     constexpr double step = 1;
     cv::Mat3f before;
     double around = 0; // largest day-to-day change of a pixel in the last days before closure

@@ -1,4 +1,5 @@
 #include "tools/lab/commands.hpp"
+#include "tools/lab/document_tables.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -57,22 +58,6 @@ void print_ward_albedo_table()
         }
 }
 
-/// Replaces the text between "<!-- table NAME -->" and "<!-- end -->" by the table.
-std::string with_tables(std::string document, const std::string& where)
-{
-    for (const auto& [name, table] : scene::field_documentation()) {
-        const std::string begin = fmt::format("<!-- table {} -->\n", name), end = "<!-- end -->";
-        const std::size_t first = document.find(begin);
-        const std::size_t last = first == std::string::npos ? first : document.find(end, first);
-        if (last == std::string::npos)
-            throw base::InputError(
-                where, fmt::format("has no markers for the table of {}", name),
-                fmt::format("write a line {} and below it {}", begin.substr(0, begin.size() - 1), end));
-        document.replace(first + begin.size(), last - first - begin.size(), table);
-    }
-    return document;
-}
-
 } // namespace
 
 void add_compare_models(CLI::App& program)
@@ -126,8 +111,7 @@ void add_scene_fields(CLI::App& program)
                 fmt::print("## {}\n\n{}\n", name, table);
             return;
         }
-        const std::vector<std::uint8_t> bytes = base::read_file(*document, 1 << 20);
-        base::write_text(*document, with_tables({bytes.begin(), bytes.end()}, *document));
+        replace_tables(*document, scene::field_documentation());
     });
 }
 

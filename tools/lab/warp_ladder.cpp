@@ -89,8 +89,8 @@ cv::Mat2d lattice(const wound::Warp& warp, cv::Point2d center, double reach)
     cv::Mat2d map(sample_count, sample_count);
     for (int j = 0; j < sample_count; ++j)
         for (int i = 0; i < sample_count; ++i)
-            map(j, i) = warp.apply(
-                center + reach * cv::Point2d((i + .5) * 2 / sample_count - 1, (j + .5) * 2 / sample_count - 1));
+            map(j, i) = warp.apply(center + reach * cv::Point2d((i + .5) * 2 / sample_count - 1,
+                                                                (j + .5) * 2 / sample_count - 1));
     return map;
 }
 
@@ -100,8 +100,8 @@ double largest_distance(const cv::Mat2d& a, const cv::Mat2d& b, cv::Point2d cent
     double largest = 0;
     for (int j = 0; j < sample_count; ++j)
         for (int i = 0; i < sample_count; ++i) {
-            const cv::Point2d p =
-                center + reach * cv::Point2d((i + .5) * 2 / sample_count - 1, (j + .5) * 2 / sample_count - 1);
+            const cv::Point2d p = center + reach * cv::Point2d((i + .5) * 2 / sample_count - 1,
+                                                               (j + .5) * 2 / sample_count - 1);
             if (std::max(std::abs(p.x), std::abs(p.y)) < 1)
                 largest = std::max(largest, cv::norm(a(j, i) - b(j, i)) * patch_size / 2);
         }
@@ -125,7 +125,8 @@ std::vector<LadderRow> measure(const LadderShape& shape, const wound::Contractio
                 std::min(row.make_ms, cpu_ms([&] { warps[i] = make_warp(flow, ratio, warp_models[i]); }));
             for (double spent_ms = 0; spent_ms < 10;) {
                 const double once_ms = cpu_ms([&] { maps[i] = lattice(warps[i], {}, 1); });
-                row.ms_per_megatexel = std::min(row.ms_per_megatexel, once_ms * 1e6 / (sample_count * sample_count));
+                row.ms_per_megatexel =
+                    std::min(row.ms_per_megatexel, once_ms * 1e6 / (sample_count * sample_count));
                 spent_ms += once_ms;
             }
         }

@@ -60,7 +60,8 @@ Shading published_shading()
 Shading skin_shading()
 {
     Shading shading;
-    shading.rho_d = 0.8;
+    shading.transport = Transport::Lambert;
+    shading.rho_d = 0.862;
     shading.rho_ts = 0.25;
     shading.rho_s = 0.2;
     shading.alpha_x = shading.alpha_y = 0.3;

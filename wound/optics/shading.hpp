@@ -30,6 +30,12 @@ enum class TranslucencyModel : std::uint32_t
     /// (w^-4 + W^-4)^(-1/4): below W everywhere, within w/4 (w/W)^4 of the published w
     Bounded = shared::TRANSLUCENCY_BOUNDED,
 };
+/// How light that enters the skin comes out again.
+enum class Transport : std::uint8_t
+{
+    Published, // the translucent term of eq. (6): the same on all sides of the head, without a shadow
+    Lambert,   // where it entered
+};
 enum class BlendModel : std::uint32_t
 {
     Published = shared::BLEND_PUBLISHED, // eq. (4); .2 W + .4 R + .4 S at r = 1
@@ -42,6 +48,7 @@ struct Shading
 {
     bool lambert = true, translucency = true, ward = true;
     bool normal_map = true, shadow = true;
+    Transport transport = Transport::Published;
     WardModel ward_model = WardModel::Bounded;
     TranslucencyModel translucency_model = TranslucencyModel::Bounded;
     BlendModel blend_model = BlendModel::Corrected;
@@ -50,6 +57,8 @@ struct Shading
     double alpha_x = 0.4, alpha_y = 0.4; // standard deviation of the slope along tangent and bitangent
     base::Color ambient{0, 0, 0};        // linear radiance of the surroundings; 0 disables the term
 
+    /// Whether the term of eq. (6) is drawn.
+    bool translucent() const { return translucency && transport == Transport::Published; }
     /// W, the largest translucent weight at which a point that faces the light reflects no more light than it
     /// receives: rho_d + rho_ts W = 1.
     double translucency_bound() const;
@@ -58,7 +67,8 @@ struct Shading
 
 /// Section 5 as printed: its equations and coefficients, no shadow, no ambient light.
 Shading published_shading();
-/// Corrected equations with coefficients for skin in a dim room, chosen by eye: rho_s = .2 reflects 5 % of
+/// Corrected equations with coefficients for skin in a dim room. rho_d = .862 reflects as much light at the face's
+/// middle as .8 and eq. (6) did together, without light where none arrives (docs/shading.md). rho_s = .2 reflects 5 % of
 /// the light, near skin's Fresnel reflectance (2.8 % at normal incidence for n = 1.4, more at grazing
 /// incidence); the paper's .8 looks like glazed china.
 Shading skin_shading();

@@ -1,0 +1,97 @@
+// The shadow map against traced rays: no light past the edge of a shadow, no shadow where there is none.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "reference/surface.hpp"
+#include "reference/wounds.hpp"
+#include "stage/renderer.hpp"
+#include "tests/support/gpu.hpp"
+#include "tests/support/small_head.hpp"
+
+namespace {
+
+constexpr int side = 128, lights = 100;
+
+/// What the map says, 0..1, where light falls; -1 where none would fall without a shadow.
+cv::Mat1f drawn_visibility(stage::Renderer& renderer, const scene::Scene& scene)
+{
+    std::array<cv::Mat4f, 2> light;
+    for (const bool shadow : {false, true}) {
+        scene::Scene one = scene;
+        one.shading.shadow = shadow;
+        const stage::Stage stage(renderer.device, stage::Stage::prepare(one));
+        stage::DrawOptions drawing;
+        drawing.size = one.size;
+        drawing.transparent = drawing.radiance = true;
+        light[shadow] = stage::draw(renderer, stage, {.camera = stage.loaded().camera()}, drawing).radiance;
+    }
+    cv::Mat1f visibility(side, side, -1.f);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            if (light[0](y, x)[3] == 1 && light[0](y, x)[1] > .02f)
+                visibility(y, x) = light[1](y, x)[1] / light[0](y, x)[1];
+    return visibility;
+}
+
+struct Wrong
+{
+    int lit = 0;    // pixels on which light falls
+    int leaks = 0;  // lit by the map, in shadow by rays
+    int shadow = 0; // the other way
+};
+
+Wrong compared(const cv::Mat1f& drawn, const scene::LoadedScene& scene)
+{
+    const reference::AlbedoTable table(0, 1);
+    const reference::DayWounds wounds(scene, 0, table, {}, false);
+    const reference::Surfaces surfaces(scene, wounds);
+    const head::Camera camera = scene.camera();
+    Wrong wrong;
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const glm::dvec3 sight =
+                head::sight_through(camera, 2 * (x + .5) / side - 1, 2 * (y + .5) / side - 1, 1);
+            const auto hit = surfaces.seen(camera.eye, glm::normalize(sight), 0);
+            if (!hit || drawn(y, x) < 0)
+                continue;
+            const reference::SurfacePoint point = surfaces.point(*hit);
+            const optics::LightSample light =
+                optics::sample_light(scene.lights[0], {point.at.x, point.at.y, point.at.z});
+            const bool blocked = surfaces.blocked(
+                point.lifted, {light.direction[0], light.direction[1], light.direction[2]}, light.distance_m);
+            wrong.lit += !blocked;
+            wrong.leaks += blocked && drawn(y, x) > .9f;
+            wrong.shadow += !blocked && drawn(y, x) < .1f;
+        }
+    return wrong;
+}
+
+} // namespace
+
+TEST(ShadowTruth, AgreesWithRaysForAHundredLights)
+{
+    stage::Renderer renderer({.validation = true});
+    scene::Scene scene = small::scene(small::head(), side);
+    scene.wounds.clear();
+    scene.shading.translucency = scene.shading.ward = scene.shading.normal_map = false;
+    scene.shading.ambient = {0, 0, 0};
+    Wrong all;
+    for (int i = 0; i < lights; ++i) {
+        scene::Light light;
+        light.from = {std::fmod(i * 137.508, 360) - 180, -80 + 160. * i / (lights - 1)};
+        light.distance_m = .9;
+        scene.lights = {light};
+        const Wrong wrong = compared(drawn_visibility(renderer, scene), scene::load(scene));
+        EXPECT_LE(wrong.leaks, 2 + .01 * wrong.lit) << i;
+        EXPECT_LE(wrong.shadow, 2 + .01 * wrong.lit) << i;
+        all.lit += wrong.lit;
+        all.leaks += wrong.leaks;
+        all.shadow += wrong.shadow;
+    }
+    EXPECT_GT(all.lit, 100 * side);
+    EXPECT_LE(all.leaks, .002 * all.lit);
+    EXPECT_LE(all.shadow, .002 * all.lit);
+    RecordProperty("leaks", all.leaks);
+    fmt::print("{} lit pixels: {} leaks, {} false shadows\n", all.lit, all.leaks, all.shadow);
+    stage::fail_on_validation(renderer.device);
+}
