@@ -116,7 +116,7 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
     pass.constant("TRANSLUCENCY", shading.translucent());
     pass.constant("WARD", shading.ward);
     pass.constant("NORMAL_MAP", shading.normal_map);
-    pass.constant("SHADOW", input.shadow.has_value());
+    pass.constant("SHADOWS", input.shadows.casting);
     pass.constant("AMBIENT", shading.ambient != base::Color(0, 0, 0));
     pass.constant("WARD_MODEL", std::uint32_t(shading.ward_model));
     pass.constant("TRANSLUCENCY_MODEL", std::uint32_t(shading.translucency_model));
@@ -125,9 +125,10 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
     pass.uniform("Shading_", shading_params(shading));
     pass.uniform("Lighting_", lighting(input.lights));
     pass.uniform("Wounds_", wound_frames(input.wounds));
-    pass.uniform("Shadow_", input.shadow.value_or(shared::Shadow{}));
+    pass.uniform("Shadows_", input.shadows.lights);
     const graph::ImageId blank = graph.import("white", *input.head.white);
-    pass.sample("shadow_map", input.shadow ? input.shadow_depth : blank, graph::Sampler::NearestClamp);
+    pass.sample("shadow_map", input.shadows.casting != 0 ? input.shadow_depth : blank,
+                graph::Sampler::NearestClamp);
 
     for (std::size_t i = 0; i < input.head.parts.size(); ++i) {
         const HeadPart& part = input.head.parts[i];

@@ -3,7 +3,6 @@
 // that is off is not compiled.
 #pragma once
 #include <glm/glm.hpp>
-#include <optional>
 #include <span>
 
 #include "engine/graph/graph.hpp"
@@ -11,10 +10,10 @@
 #include "head/placement.hpp"
 #include "passes/head.hpp"
 #include "passes/reflectance_lut.hpp"
+#include "passes/shadow.hpp"
 #include "passes/viewport_tile.hpp"
 #include "passes/wound_texture.hpp"
 #include "shaders/shared/frame.h"
-#include "shaders/shared/shadow.h"
 #include "wound/optics/shading.hpp"
 
 namespace passes {
@@ -43,9 +42,9 @@ struct ForwardInput
 {
     const Head& head;
     std::span<const ForwardWound> wounds;  // at most shared::MAX_WOUNDS
-    std::span<const optics::Light> lights; // at most shared::MAX_LIGHTS; the first casts the shadow
-    std::optional<shared::Shadow> shadow;  // none: no shadow
-    graph::ImageId shadow_depth;           // used with `shadow`
+    std::span<const optics::Light> lights; // at most shared::MAX_LIGHTS
+    Shadows shadows;                       // of the lights
+    graph::ImageId shadow_depth;           // used when a light casts a shadow
     bool every_frame = true;               // run the pass even when nothing has changed
 };
 

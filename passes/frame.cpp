@@ -21,11 +21,11 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
         images.wounds.push_back(texture);
     }
     ForwardInput forward{input.head, placed, input.lights, {}, {}, input.every_frame};
-    if (input.shading.shadow && !input.lights.empty())
-        forward.shadow = fit_shadow(input.lights.front(), input.head.min, input.head.max);
-    if (forward.shadow)
+    if (input.shading.shadow)
+        forward.shadows = fit_shadows(input.lights, input.head.min, input.head.max);
+    if (forward.shadows.casting != 0)
         forward.shadow_depth =
-            add_shadow(graph, *forward.shadow, *input.head.caster_mesh, input.head.casters);
+            add_shadows(graph, forward.shadows, *input.head.caster_mesh, input.head.casters);
     const auto [width, height] = input.tile.size;
     const shared::View view = make_view(input.camera, input.head, input.tile);
     images.radiance = add_forward(graph, forward, view, input.shading,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -22,6 +23,18 @@ glm::dmat4 light_view(const glm::dvec3& eye, const glm::dvec3& forward)
 {
     const glm::dvec3 up = std::abs(forward.y) > 0.99 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
     return glm::lookAtRH(eye, eye + forward, up);
+}
+
+/// The shadow in the `tile`-th of `count` tiles of the depth image, from left to right.
+shared::Shadow in_tile(const shared::Shadow& shadow, int tile, int count)
+{
+    glm::mat4 place(1);
+    place[0][0] = 1.f / float(count);
+    place[3][0] = float(2 * tile + 1) / float(count) - 1;
+    return {.clip_from_world = place * shadow.clip_from_world,
+            .clip_plane_from_world = glm::transpose(glm::inverse(place)) * shadow.clip_plane_from_world,
+            .texel = shadow.texel,
+            .step = shadow.step / glm::vec2(count, 1)};
 }
 
 } // namespace
@@ -63,24 +76,44 @@ std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::
     return shared::Shadow{.clip_from_world = glm::mat4(clip_from_world),
                           .clip_plane_from_world = glm::mat4(glm::transpose(glm::inverse(clip_from_world))),
                           .texel = static_cast<float>(2 * half / shadow_size),
-                          .size = static_cast<float>(shadow_size)};
+                          .step = glm::vec2(2.f / shadow_size)};
 }
 
-graph::ImageId add_shadow(graph::Graph& graph, const shared::Shadow& shadow, const graph::Mesh& mesh,
-                          std::span<const head::Primitive> casters)
+Shadows fit_shadows(std::span<const optics::Light> lights, const glm::vec3& box_min, const glm::vec3& box_max)
 {
+    Shadows shadows;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (lights[i].strength != base::Color(0, 0, 0))
+            if (const auto shadow = fit_shadow(lights[i], box_min, box_max)) {
+                shadows.lights[i] = *shadow;
+                shadows.casting |= 1u << i;
+            }
+    const int count = std::popcount(shadows.casting);
+    for (std::size_t i = 0, tile = 0; i < lights.size(); ++i)
+        if ((shadows.casting >> i & 1) != 0)
+            shadows.lights[i] = in_tile(shadows.lights[i], int(tile++), count);
+    return shadows;
+}
+
+graph::ImageId add_shadows(graph::Graph& graph, const Shadows& shadows, const graph::Mesh& mesh,
+                           std::span<const head::Primitive> casters)
+{
+    const auto count = std::uint32_t(std::popcount(shadows.casting));
     const graph::ImageId depth =
-        graph.image("shadow depth", {shadow_size, shadow_size, VK_FORMAT_D32_SFLOAT});
+        graph.image("shadow depth", {count * shadow_size, shadow_size, VK_FORMAT_D32_SFLOAT});
     graph::RasterPass& pass = graph.raster("shadow");
     pass.depth(depth);
-    pass.uniform("ShadowBlock", shadow);
-    for (const head::Primitive& caster : casters) {
-        graph::Draw& draw = pass.draw("shadow");
-        draw.mesh = &mesh;
-        draw.first_index = caster.first_index;
-        draw.index_count = caster.index_count;
-        draw.cull_back_faces = false; // a bust is open at the bottom, and thin sheets are one-sided
-    }
+    for (std::size_t light = 0; light < std::size(shadows.lights); ++light)
+        for (const head::Primitive& caster : casters) {
+            if ((shadows.casting >> light & 1) == 0)
+                continue;
+            graph::Draw& draw = pass.draw("shadow");
+            draw.uniform("ShadowBlock", shadows.lights[light]);
+            draw.mesh = &mesh;
+            draw.first_index = caster.first_index;
+            draw.index_count = caster.index_count;
+            draw.cull_back_faces = false; // a bust is open at the bottom, and thin sheets are one-sided
+        }
     return depth;
 }
 

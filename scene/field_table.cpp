@@ -208,7 +208,7 @@ const std::vector<Field<optics::Shading>>& shading_fields()
             boolean<Shading>(
                 "normal_map", [](auto& s) -> auto& { return s.normal_map; }, "pores, by the normal map"),
             boolean<Shading>(
-                "shadow", [](auto& s) -> auto& { return s.shadow; }, "the first light's cast shadow"),
+                "shadow", [](auto& s) -> auto& { return s.shadow; }, "the lights' cast shadows"),
             choice<Shading>(
                 "transport", transport_names, [](auto& s) -> auto& { return s.transport; },
                 "how light leaves the skin: by the translucent term of eq. (6) too, which also lights what "
@@ -298,7 +298,8 @@ const std::vector<Field<Scene>>& scene_fields()
             "seconds and minutes, when a tissue is first used; results are kept in the cache folder"),
         nested<Scene>("shading", shading_fields(), &Scene::shading, "see below"),
         defaulting(list<Scene>("lights", std::size_t(shared::MAX_LIGHTS), light_fields(), &Scene::lights,
-                               "see below; the first one casts the shadow",
+                               "see below; each casts a shadow, unless it is too close to the head or "
+                               "`shading.shadow` is off",
                                [](const Reading&) { return Light{}; }),
                    "key and fill"),
         nested<Scene>("camera", camera_fields(), &Scene::camera, "see below"),

@@ -15,7 +15,7 @@ layout(constant_id = 1) const bool LAMBERT = true;
 layout(constant_id = 2) const bool TRANSLUCENCY = true;
 layout(constant_id = 3) const bool WARD = true;
 layout(constant_id = 4) const bool NORMAL_MAP = true;
-layout(constant_id = 5) const bool SHADOW = true;
+layout(constant_id = 5) const uint SHADOWS = 0; // bit i: light i casts a shadow
 layout(constant_id = 6) const bool AMBIENT = true; // ambient light times occlusion
 layout(constant_id = 7) const uint WARD_MODEL = WARD_BOUNDED;
 layout(constant_id = 8) const uint TRANSLUCENCY_MODEL = TRANSLUCENCY_BOUNDED;
@@ -44,6 +44,7 @@ layout(binding = 9) uniform sampler2D wound_state[MAX_WOUNDS];
 layout(binding = 10) uniform sampler2D wound_relief[MAX_WOUNDS];
 layout(binding = 11) uniform sampler2D reflectance_lut[MAX_WOUNDS];
 layout(binding = 12) uniform sampler2D shadow_map;
+layout(scalar, binding = 13) uniform Shadows_ { Shadow shadows[MAX_LIGHTS]; };
 
 #define ADD_WOUND(i)                                                                                                            \
     if (WOUNDS > i)                                                                                                            \
@@ -81,8 +82,18 @@ void main()
     for (uint i = 0; i < LIGHTS; ++i)
     {
         LightSample light = sample_light(lighting.light[i], v_position);
-        if (SHADOW && i == 0)
-            light.strength *= shadow_visibility(shadow_map, v_shadow_place, v_shadow_slope);
+        if ((SHADOWS >> i & 1) != 0)
+        {
+            // The first light's place is interpolated, which saves two matrix products per pixel.
+            vec4 place = v_shadow_place;
+            vec2 slope = v_shadow_slope;
+            if (i > 0)
+            {
+                place = shadow_place(shadows[i], v_position, geometric, light.direction);
+                slope = shadow_slope(shadows[i], v_position, geometric, light.direction);
+            }
+            light.strength *= shadow_visibility(shadow_map, place, slope);
+        }
         const vec3 local_light = light.direction * frame;
         if (LAMBERT)
             diffuse += surface_diffuse(params, light, local_light);

@@ -1,11 +1,11 @@
-// Shadow of the key light by percentage-closer filtering (Reeves, Salesin & Cook 1987). The shader filters
+// Shadow of a light by percentage-closer filtering (Reeves, Salesin & Cook 1987). The shader filters
 // itself, because Vulkan does not guarantee linear filtering of depth images.
 #ifndef LIB_SHADOW_GLSL
 #define LIB_SHADOW_GLSL
 #include "shared/shadow.h"
 
-// The lookup position of a surface point in the light's clip space. The vertex shader computes it, because it is
-// linear in the position (saves a matrix product per pixel). to_light: unit.
+// The lookup position of a surface point in the clip space of the depth image. It is linear in the position, so
+// the vertex shader can compute it. to_light: unit.
 //
 // Moves the point towards the light, which changes the compared depth only. A move along the normal would change
 // the place of the lookup too: light would leak past the edges of shadows. By one texel's width, and more where
@@ -28,7 +28,7 @@ vec2 shadow_slope(Shadow shadow, vec3 position, vec3 normal, vec3 to_light)
     vec4 here = shadow.clip_from_world * vec4(position, 1.0);
     vec4 nearer = shadow.clip_from_world * vec4(position + shadow.texel * here.w * to_light, 1.0);
     float steepest = 12.0 * abs(here.z / here.w - nearer.z / nearer.w);
-    vec2 slope = -plane.xy * (2.0 / shadow.size);
+    vec2 slope = -plane.xy * shadow.step;
     float facing = max(abs(plane.z), 1e-20);
     return clamp(slope / (plane.z < 0.0 ? -facing : facing), -steepest, steepest);
 }

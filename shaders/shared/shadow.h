@@ -1,4 +1,4 @@
-// The key light's shadow map: maps a point of the world to the light's depth image.
+// A light's shadow map: maps a point of the world to the light's tile of the depth image.
 #ifndef SHARED_SHADOW_H
 #define SHARED_SHADOW_H
 #include "glsl.h"
@@ -8,10 +8,10 @@ namespace shared {
 
 struct Shadow
 {
-    mat4 clip_from_world;       // Vulkan clip space of the light: x right, y down, depth 0..1
+    mat4 clip_from_world;       // Vulkan clip space of the depth image: x right, y down, depth 0..1
     mat4 clip_plane_from_world; // the same for planes (normal, -distance): its inverse, transposed
     float texel;                // width of a texel, m, per unit of clip w: at clip w = 1 for a parallel light
-    float size;                 // texels along an edge of the depth image
+    vec2 step;                  // width and height of a texel in clip space, at clip w = 1
 };
 
 #ifdef __cplusplus

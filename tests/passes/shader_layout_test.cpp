@@ -88,7 +88,7 @@ TEST(ShaderLayout, Shadow)
         gpu_test::expect_layout(stage, "Shadow", sizeof(Shadow),
                                 {CICATRIX_MEMBER(Shadow, clip_from_world),
                                  CICATRIX_MEMBER(Shadow, clip_plane_from_world),
-                                 CICATRIX_MEMBER(Shadow, texel), CICATRIX_MEMBER(Shadow, size)});
+                                 CICATRIX_MEMBER(Shadow, texel), CICATRIX_MEMBER(Shadow, step)});
 }
 
 TEST(ShaderLayout, Wound)

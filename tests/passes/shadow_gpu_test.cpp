@@ -75,7 +75,9 @@ Frame render(gpu::Executor& executor, const Scene& scene, const gpu::MeshBuffer&
 
     const head::Primitive whole{0, static_cast<std::uint32_t>(scene.indices.size()), 0};
     graph::Graph graph;
-    const graph::ImageId depth = passes::add_shadow(graph, *shadow, mesh, std::span(&whole, 1));
+    passes::Shadows alone{.casting = 1};
+    alone.lights[0] = *shadow;
+    const graph::ImageId depth = passes::add_shadows(graph, alone, mesh, std::span(&whole, 1));
     if (receivers.empty())
         return {executor.run(graph), {}};
 
@@ -221,5 +223,5 @@ TEST_F(ShadowOnGpu, SharedStructHasTheSameLayoutInBothLanguages)
     gpu_test::expect_layout("shadow_test.comp", "Shadow", sizeof(shared::Shadow),
                             {CICATRIX_MEMBER(shared::Shadow, clip_from_world),
                              CICATRIX_MEMBER(shared::Shadow, clip_plane_from_world),
-                             CICATRIX_MEMBER(shared::Shadow, texel), CICATRIX_MEMBER(shared::Shadow, size)});
+                             CICATRIX_MEMBER(shared::Shadow, texel), CICATRIX_MEMBER(shared::Shadow, step)});
 }

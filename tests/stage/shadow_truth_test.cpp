@@ -12,6 +12,25 @@ namespace {
 
 constexpr int side = 128, lights = 100;
 
+cv::Mat4f drawn_radiance(stage::Renderer& renderer, const scene::Scene& scene)
+{
+    const stage::Stage stage(renderer.device, stage::Stage::prepare(scene));
+    stage::DrawOptions drawing;
+    drawing.size = scene.size;
+    drawing.transparent = drawing.radiance = true;
+    return stage::draw(renderer, stage, {.camera = stage.loaded().camera()}, drawing).radiance;
+}
+
+/// A head lit by lights alone, of one white diffuse surface.
+scene::Scene lambert_scene()
+{
+    scene::Scene scene = small::scene(small::head(), side);
+    scene.wounds.clear();
+    scene.shading.translucency = scene.shading.ward = scene.shading.normal_map = false;
+    scene.shading.ambient = {0, 0, 0};
+    return scene;
+}
+
 /// What the map says, 0..1, where light falls; -1 where none would fall without a shadow.
 cv::Mat1f drawn_visibility(stage::Renderer& renderer, const scene::Scene& scene)
 {
@@ -19,11 +38,7 @@ cv::Mat1f drawn_visibility(stage::Renderer& renderer, const scene::Scene& scene)
     for (const bool shadow : {false, true}) {
         scene::Scene one = scene;
         one.shading.shadow = shadow;
-        const stage::Stage stage(renderer.device, stage::Stage::prepare(one));
-        stage::DrawOptions drawing;
-        drawing.size = one.size;
-        drawing.transparent = drawing.radiance = true;
-        light[shadow] = stage::draw(renderer, stage, {.camera = stage.loaded().camera()}, drawing).radiance;
+        light[shadow] = drawn_radiance(renderer, one);
     }
     cv::Mat1f visibility(side, side, -1.f);
     for (int y = 0; y < side; ++y)
@@ -71,10 +86,7 @@ Wrong compared(const cv::Mat1f& drawn, const scene::LoadedScene& scene)
 TEST(ShadowTruth, AgreesWithRaysForAHundredLights)
 {
     stage::Renderer renderer({.validation = true});
-    scene::Scene scene = small::scene(small::head(), side);
-    scene.wounds.clear();
-    scene.shading.translucency = scene.shading.ward = scene.shading.normal_map = false;
-    scene.shading.ambient = {0, 0, 0};
+    scene::Scene scene = lambert_scene();
     Wrong all;
     for (int i = 0; i < lights; ++i) {
         scene::Light light;
@@ -93,5 +105,37 @@ TEST(ShadowTruth, AgreesWithRaysForAHundredLights)
     EXPECT_LE(all.shadow, .002 * all.lit);
     RecordProperty("leaks", all.leaks);
     fmt::print("{} lit pixels: {} leaks, {} false shadows\n", all.lit, all.leaks, all.shadow);
+    stage::fail_on_validation(renderer.device);
+}
+
+// Light adds up: three lights together are the sum of each alone, shadows included.
+TEST(ShadowTruth, EveryLightCastsItsOwnShadow)
+{
+    stage::Renderer renderer({.validation = true});
+    scene::Scene scene = lambert_scene();
+    scene::Light left, right, above, off;
+    left.from = {-45, 20};
+    right.from = {50, 10};
+    above.from = {0, 60};
+    off.intensity = 0;
+    for (scene::Light* light : {&left, &right, &above})
+        light->distance_m = .9;
+    cv::Mat4f sum(side, side, cv::Vec4f::all(0));
+    for (const scene::Light& light : {left, right, above}) {
+        scene.lights = {light};
+        sum += drawn_radiance(renderer, scene);
+    }
+    scene.lights = {left, off, right, above};
+    const cv::Mat4f together = drawn_radiance(renderer, scene);
+    scene.shading.shadow = false;
+    const cv::Mat4f unshadowed = drawn_radiance(renderer, scene);
+    int wrong = 0, shadowed = 0;
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            wrong += std::abs(together(y, x)[1] - sum(y, x)[1]) > .01f + .01f * sum(y, x)[1];
+            shadowed += unshadowed(y, x)[1] - together(y, x)[1] > .02f;
+        }
+    EXPECT_GT(shadowed, 50);
+    EXPECT_LT(wrong, 40); // at edges: only the first light's place in its map is interpolated
     stage::fail_on_validation(renderer.device);
 }
