@@ -81,7 +81,7 @@ std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::
 
 Shadows fit_shadows(std::span<const optics::Light> lights, const glm::vec3& box_min, const glm::vec3& box_max)
 {
-    Shadows shadows;
+    Shadows shadows{}; // zero where no light is: what the pass remembers must not change
     for (std::size_t i = 0; i < lights.size(); ++i)
         if (lights[i].strength != base::Color(0, 0, 0))
             if (const auto shadow = fit_shadow(lights[i], box_min, box_max)) {

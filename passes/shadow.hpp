@@ -24,8 +24,9 @@ std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::
 
 struct Shadows
 {
-    shared::Shadow lights[shared::MAX_LIGHTS]; // of the lights that cast a shadow; the shaders' uniform block
-    std::uint32_t casting = 0;                 // bit i: light i casts a shadow
+    shared::Shadow
+        lights[shared::MAX_LIGHTS]{}; // of the lights that cast a shadow; the shaders' uniform block
+    std::uint32_t casting = 0;        // bit i: light i casts a shadow
 };
 /// Lights without strength cast none.
 Shadows fit_shadows(std::span<const optics::Light> lights, const glm::vec3& box_min,
