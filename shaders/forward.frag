@@ -27,8 +27,8 @@ layout(location = 1) in vec3 v_normal;
 layout(location = 2) in vec4 v_tangent;
 layout(location = 3) in vec2 v_uv;
 layout(location = 4) in vec3 v_subsurface;
-layout(location = 5) in vec4 v_shadow_place;
-layout(location = 6) in vec2 v_shadow_slope;
+layout(location = 5) in vec4 v_shadow_place[2]; // of the first two lights
+layout(location = 7) in vec2 v_shadow_slope[2];
 layout(location = 0) out vec4 out_color;
 
 layout(scalar, binding = 0) uniform View_ { View view; };
@@ -84,10 +84,10 @@ void main()
         LightSample light = sample_light(lighting.light[i], v_position);
         if ((SHADOWS >> i & 1) != 0)
         {
-            // The first light's place is interpolated, which saves two matrix products per pixel.
-            vec4 place = v_shadow_place;
-            vec2 slope = v_shadow_slope;
-            if (i > 0)
+            // The place is interpolated for two lights: to compute it per pixel doubles the cost of the pass.
+            vec4 place = v_shadow_place[min(i, 1)];
+            vec2 slope = v_shadow_slope[min(i, 1)];
+            if (LIGHTS > 2 && i > 1)
             {
                 place = shadow_place(shadows[i], v_position, geometric, light.direction);
                 slope = shadow_slope(shadows[i], v_position, geometric, light.direction);

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // The head's vertices. Computes the quantities that vary smoothly over the surface: the translucent light of
-// eq. (6) and the position in the first light's shadow map.
+// eq. (6) and the position in the first two lights' shadow maps.
 #include "lib/shading.glsl"
 #include "lib/shadow.glsl"
 #include "shared/frame.h"
@@ -27,8 +27,8 @@ layout(location = 1) out vec3 v_normal;
 layout(location = 2) out vec4 v_tangent;
 layout(location = 3) out vec2 v_uv;
 layout(location = 4) out vec3 v_subsurface;
-layout(location = 5) out vec4 v_shadow_place;
-layout(location = 6) out vec2 v_shadow_slope;
+layout(location = 5) out vec4 v_shadow_place[2]; // of the first two lights
+layout(location = 7) out vec2 v_shadow_slope[2];
 
 void main()
 {
@@ -40,13 +40,16 @@ void main()
     if (TRANSLUCENCY)
         for (uint i = 0; i < LIGHTS; ++i)
             v_subsurface += subsurface_diffuse(TRANSLUCENCY_MODEL, shading, lighting.light[i], position);
-    v_shadow_place = vec4(0);
-    v_shadow_slope = vec2(0);
-    if ((SHADOWS & 1) != 0)
+    for (uint i = 0; i < 2; ++i)
     {
-        const vec3 to_light = sample_light(lighting.light[0], position).direction;
-        v_shadow_place = shadow_place(shadows[0], position, normal, to_light);
-        v_shadow_slope = shadow_slope(shadows[0], position, normal, to_light);
+        v_shadow_place[i] = vec4(0);
+        v_shadow_slope[i] = vec2(0);
+        if ((SHADOWS >> i & 1) != 0)
+        {
+            const vec3 to_light = sample_light(lighting.light[i], position).direction;
+            v_shadow_place[i] = shadow_place(shadows[i], position, normal, to_light);
+            v_shadow_slope[i] = shadow_slope(shadows[i], position, normal, to_light);
+        }
     }
     gl_Position = view.clip_from_world * vec4(position, 1);
 }
