@@ -125,7 +125,7 @@ void read_exr_channels(const std::filesystem::path& path, cv::Size size, std::sp
     try {
         wrong = read(path, size, channels, numbers);
     } catch (const std::exception&) { // OpenEXR's words are about its own code
-        wrong = "is not there or broken";
+        wrong = "is missing or damaged";
     }
     if (!wrong.empty())
         throw InputError(path.string(), wrong, "remove it, so that it is made again");

@@ -25,6 +25,14 @@ Color on_backdrop(const Color& radiance, double alpha, double exposure_stops, do
     return picture;
 }
 
+Lab shown_lab(const Color& radiance, double alpha, double exposure_stops, double height)
+{
+    Color shown = on_backdrop(radiance, alpha, exposure_stops, height);
+    for (double& channel : shown.val)
+        channel = std::clamp(channel, 0.0, 1.0);
+    return lab_from_linear(shown);
+}
+
 cv::Mat3b encode_picture(const cv::Mat4f& radiance, double exposure_stops)
 {
     cv::Mat3b encoded(radiance.size());

@@ -17,6 +17,9 @@ inline constexpr float backdrop_top[3] = {0.045f, 0.05f, 0.058f}, backdrop_botto
 /// above 1 are still to be clipped.
 Color on_backdrop(const Color& radiance, double alpha, double exposure_stops, double height);
 
+/// The colour of that, clipped to what a picture holds.
+Lab shown_lab(const Color& radiance, double alpha, double exposure_stops, double height);
+
 /// A picture of premultiplied radiance (RGBA), as sRGB.
 cv::Mat3b encode_picture(const cv::Mat4f& radiance, double exposure_stops);
 

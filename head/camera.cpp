@@ -27,4 +27,10 @@ glm::dvec3 sight_through(const Camera& camera, double x, double y, double aspect
     return forward + half_height * (x * aspect * right - y * glm::cross(right, forward));
 }
 
+glm::dvec3 sight_through_pixel(const Camera& camera, const glm::dvec2& at_px, const cv::Size& size)
+{
+    return sight_through(camera, 2 * at_px.x / size.width - 1, 2 * at_px.y / size.height - 1,
+                         double(size.width) / size.height);
+}
+
 } // namespace head

@@ -5,6 +5,20 @@
 
 namespace head {
 
+Gloss gloss_of(Surface surface)
+{
+    switch (surface) {
+    case Surface::Skin:
+        return {};
+    case Surface::Eye: // wet and smooth: half the specular reflectance in a lobe a fifth as wide
+        return {.specular = .5, .slope = .2};
+    case Surface::Hair:
+    case Surface::Other:
+        break;
+    }
+    return {.specular = 0};
+}
+
 std::uint32_t skin_material(const Model& model)
 {
     std::vector<double> area(model.materials.size(), 0.0);

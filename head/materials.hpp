@@ -14,6 +14,13 @@ enum class Surface : std::uint8_t
     Other // mouth, clothes: no highlight
 };
 
+/// Factors on the highlight's coefficient and on the slope of its lobe.
+struct Gloss
+{
+    double specular = 1, slope = 1;
+};
+Gloss gloss_of(Surface surface);
+
 /// The material that covers the largest area: the skin.
 std::uint32_t skin_material(const Model& model);
 

@@ -39,21 +39,12 @@ shared::WoundFrame wound_frame(const ForwardWound& wound)
 
 shared::Part part_params(const HeadPart& part)
 {
-    shared::Part params{part.albedo_factor, part.normal_scale, 1, 1, 1};
-    switch (part.surface) {
-    case head::Surface::Skin:
-        break;
-    case head::Surface::Eye: // wet and smooth: half the specular reflectance in a lobe a fifth as wide
-        params.slope = 0.2f;
-        params.specular = 0.5f;
-        params.translucency = 0.5f;
-        break;
-    case head::Surface::Hair:
-    case head::Surface::Other:
-        params.specular = 0;
-        break;
-    }
-    return params;
+    const head::Gloss gloss = head::gloss_of(part.surface);
+    return {.albedo_factor = part.albedo_factor,
+            .normal_scale = part.normal_scale,
+            .specular = float(gloss.specular),
+            .slope = float(gloss.slope),
+            .translucency = part.surface == head::Surface::Eye ? 0.5f : 1.f};
 }
 
 /// Binds every wound sampler of the shader; unused ones get the head's white texel.

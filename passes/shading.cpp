@@ -5,17 +5,9 @@
 #include <fmt/format.h>
 
 #include "base/input_error.hpp"
+#include "head/vectors.hpp"
 
 namespace passes {
-
-namespace {
-
-glm::vec3 to_glm(const cv::Vec3d& v)
-{
-    return glm::vec3(glm::dvec3(v[0], v[1], v[2]));
-}
-
-} // namespace
 
 shared::ShadingParams shading_params(const optics::Shading& shading)
 {
@@ -29,7 +21,7 @@ shared::ShadingParams shading_params(const optics::Shading& shading)
         .translucency_bound_4 =
             static_cast<float>(std::pow(std::max(shading.translucency_bound(), 1e-9), -4)),
         .slope = glm::vec2(glm::dvec2(shading.alpha_x, shading.alpha_y)),
-        .ambient = to_glm(shading.rho_d * shading.ambient),
+        .ambient = head::to_glm(shading.rho_d * shading.ambient),
     };
 }
 
@@ -41,11 +33,11 @@ shared::Lighting lighting(std::span<const optics::Light> lights)
     shared::Lighting result{};
     for (const optics::Light& light : lights)
         result.light[result.count++] = {
-            .position = to_glm(light.position),
+            .position = head::to_glm(light.position),
             .kind = static_cast<shared::uint>(light.kind),
-            .direction = to_glm(light.direction),
+            .direction = head::to_glm(light.direction),
             .reference_distance = static_cast<float>(light.reference_distance_m),
-            .strength = to_glm(light.strength),
+            .strength = head::to_glm(light.strength),
             .distance_scale = static_cast<float>(light.translucency_distance.scale),
             .distance_offset = static_cast<float>(light.translucency_distance.offset),
         };

@@ -10,7 +10,7 @@ namespace passes {
 
 shared::ShadingParams shading_params(const optics::Shading& shading);
 
-/// The first light is the key light. Throws base::InputError for more than shared::MAX_LIGHTS.
+/// Throws base::InputError for more than shared::MAX_LIGHTS.
 shared::Lighting lighting(std::span<const optics::Light> lights);
 
 } // namespace passes

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "head/vectors.hpp"
+
 namespace passes {
 namespace {
 
@@ -44,8 +46,7 @@ std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::
 {
     const glm::dvec3 center = glm::dvec3(box_min + box_max) * 0.5;
     const double radius = glm::length(glm::dvec3(box_max) - center);
-    const glm::dvec3 position(light.position[0], light.position[1], light.position[2]);
-    const glm::dvec3 direction(light.direction[0], light.direction[1], light.direction[2]);
+    const glm::dvec3 position = head::to_glm(light.position), direction = head::to_glm(light.direction);
     const bool parallel = light.kind == optics::LightKind::Directional;
 
     const glm::dvec3 eye = parallel ? center + 2 * radius * direction : position;
@@ -103,10 +104,10 @@ graph::ImageId add_shadows(graph::Graph& graph, const Shadows& shadows, const gr
         graph.image("shadow depth", {count * shadow_size, shadow_size, VK_FORMAT_D32_SFLOAT});
     graph::RasterPass& pass = graph.raster("shadow");
     pass.depth(depth);
-    for (std::size_t light = 0; light < std::size(shadows.lights); ++light)
+    for (std::size_t light = 0; light < std::size(shadows.lights); ++light) {
+        if ((shadows.casting >> light & 1) == 0)
+            continue;
         for (const head::Primitive& caster : casters) {
-            if ((shadows.casting >> light & 1) == 0)
-                continue;
             graph::Draw& draw = pass.draw("shadow");
             draw.uniform("ShadowBlock", shadows.lights[light]);
             draw.mesh = &mesh;
@@ -114,6 +115,7 @@ graph::ImageId add_shadows(graph::Graph& graph, const Shadows& shadows, const gr
             draw.index_count = caster.index_count;
             draw.cull_back_faces = false; // a bust is open at the bottom, and thin sheets are one-sided
         }
+    }
     return depth;
 }
 

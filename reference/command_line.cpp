@@ -35,4 +35,20 @@ void add_level_options(CLI::App& command, Levels& levels)
         ->capture_default_str();
 }
 
+void add_until_options(CLI::App& command, Until& until)
+{
+    command.add_option("--samples", until.samples, "Stop at so many samples per pixel")
+        ->transform(base::whole_number_from(8, 1'000'000))
+        ->type_name("N");
+    command
+        .add_option(
+            "--noise", until.noise_de,
+            "Stop when two such pictures would differ by this mean CIEDE2000; .5 when nothing is said")
+        ->check(base::number_from(0.01, 100))
+        ->type_name("DE");
+    command.add_option("--seconds", until.seconds, "Stop after this time")
+        ->check(base::number_from(1, 1e7))
+        ->type_name("S");
+}
+
 } // namespace reference

@@ -1,6 +1,6 @@
 // Command-line options shared by the commands that trace pictures.
 #pragma once
-#include "reference/levels.hpp"
+#include "reference/truth.hpp"
 
 namespace CLI {
 class App;
@@ -10,5 +10,8 @@ namespace reference {
 
 /// --no-shadows, --no-ambient, --no-subsurface, --no-specular, --bounces, --anisotropy, --index.
 void add_level_options(CLI::App& command, Levels& levels);
+
+/// --samples, --noise, --seconds.
+void add_until_options(CLI::App& command, Until& until);
 
 } // namespace reference

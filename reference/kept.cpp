@@ -43,6 +43,7 @@ base::ExrNumbers numbers_of(const Truth& truth)
     put(numbers, "mean_free_path_mm", skin.mean_free_path_mm);
     put(numbers, "diffuse_mean_free_path_mm", skin.diffuse_mean_free_path_mm);
     put(numbers, "worst_edge", skin.worst_edge);
+    put(numbers, "scattering_per_m", skin.scattering_per_m);
     return numbers;
 }
 
@@ -55,27 +56,24 @@ std::filesystem::path kept_path(std::uint64_t key)
 
 void read_kept(const std::filesystem::path& path, Truth& truth)
 {
-    std::error_code error;
-    if (!std::filesystem::exists(path, error))
-        return;
     Picture picture(truth.picture.size());
     base::ExrNumbers numbers = numbers_of(truth);
     try {
         base::read_exr_channels(path, picture.size(), channels_of(picture), numbers);
     } catch (const base::InputError&) {
-        return; // broken: it is traced and written anew
+        return; // missing or damaged: it is traced and written anew
     }
     picture.set_passes(std::uint32_t(numbers.at("passes")));
     truth.picture = std::move(picture);
     truth.cpu_seconds = numbers.at("cpu_seconds");
     if (const base::Color path_mm = taken(numbers, "mean_free_path_mm"); path_mm[0] > 0)
         truth.skin = {taken(numbers, "albedo"), path_mm, taken(numbers, "diffuse_mean_free_path_mm"),
-                      taken(numbers, "worst_edge")};
+                      taken(numbers, "worst_edge"), taken(numbers, "scattering_per_m")};
 }
 
 std::string write_kept(const std::filesystem::path& path, const Truth& truth)
 {
-    Picture picture = truth.picture; // its channels are not to be changed, but are pointed to as if they were
+    Picture& picture = const_cast<Picture&>(truth.picture); // ExrChannel points to what may be read into
     try {
         base::make_folder(path.parent_path());
         base::write_exr_channels(path, picture.size(), channels_of(picture), numbers_of(truth));

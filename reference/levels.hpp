@@ -14,7 +14,6 @@ struct Levels
     bool subsurface = true; // random walk under the skin; else it is Lambertian
     bool specular = true;   // the scene's lobe, of lights alone: surroundings and bounces are not mirrored
     MediumChoice medium;
-    bool operator==(const Levels&) const = default;
 };
 
 } // namespace reference

@@ -14,30 +14,12 @@ namespace reference {
 namespace {
 using nlohmann::json;
 
-json list(const base::Color& color)
-{
-    return {color[0], color[1], color[2]};
-}
-
-json list(const glm::dvec3& point)
-{
-    return {point.x, point.y, point.z};
-}
-
 json levels_json(const Levels& levels)
 {
     return {{"shadows", levels.shadows},   {"bounces", levels.bounces},
             {"ambient", levels.ambient},   {"subsurface", levels.subsurface},
             {"specular", levels.specular}, {"anisotropy", levels.medium.anisotropy},
             {"index", levels.medium.index}};
-}
-
-json tissue_json(const ReducedTissue& tissue)
-{
-    return {{"albedo", list(tissue.albedo)},
-            {"mean_free_path_mm", list(tissue.mean_free_path_mm)},
-            {"diffuse_mean_free_path_mm", list(tissue.diffuse_mean_free_path_mm)},
-            {"worst_edge", list(tissue.worst_edge)}};
 }
 
 void write_exr(const std::filesystem::path& path, const Picture& picture)
@@ -51,8 +33,6 @@ void write_exr(const std::filesystem::path& path, const Picture& picture)
     base::write_exr_channels(path, picture.size(), channels, {{"samples", picture.samples()}});
 }
 
-} // namespace
-
 json truth_json(const scene::LoadedScene& scene, const Request& request, const Truth& truth)
 {
     return {{"samples", truth.picture.samples()},
@@ -62,15 +42,17 @@ json truth_json(const scene::LoadedScene& scene, const Request& request, const T
             {"day", request.day},
             {"size", request.size},
             {"camera",
-             {{"eye_m", list(request.camera.eye)},
-              {"target_m", list(request.camera.target)},
+             {{"eye_m", scene::numbers_of(request.camera.eye)},
+              {"target_m", scene::numbers_of(request.camera.target)},
               {"fov_deg", request.camera.fov_deg}}},
             {"seed", request.seed},
             {"levels", levels_json(request.levels)},
-            {"tissue", truth.skin ? tissue_json(*truth.skin) : json(nullptr)},
+            {"tissue", truth.skin ? json(*truth.skin) : json(nullptr)},
             {"program", base::program_json()},
             {"scene", scene::to_json(scene.scene)}};
 }
+
+} // namespace
 
 void write_truth(const std::filesystem::path& folder, const scene::LoadedScene& scene, const Request& request,
                  const Truth& truth)

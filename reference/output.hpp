@@ -1,14 +1,10 @@
 // The files of a path-traced picture: reference.exr, reference.png, reference.json.
 #pragma once
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 
 #include "reference/truth.hpp"
 
 namespace reference {
-
-/// What the picture is of and how good it is.
-nlohmann::json truth_json(const scene::LoadedScene& scene, const Request& request, const Truth& truth);
 
 /// Into a folder that is made when it does not exist; reference.json is written last. Throws
 /// base::InputError. reference.exr: R G B A (premultiplied), and layers diffuse, specular, diffuse_error and

@@ -3,19 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "head/vectors.hpp"
 #include "reference/directions.hpp"
 
 namespace reference {
 namespace {
 
 const base::Color black(0, 0, 0);
-
-glm::dvec3 to_glm(const cv::Vec3d& v)
-{
-    return {v[0], v[1], v[2]};
-}
 
 double largest(const base::Color& color)
 {
@@ -52,24 +47,20 @@ Radiance PathTracer::along(const glm::dvec3& origin, const glm::dvec3& direction
     return {};
 }
 
-double PathTracer::visible(const SurfacePoint& point, const optics::LightSample& light,
-                           bool directional) const
+double PathTracer::visible(const optics::Light& light, const optics::LightSample& sample,
+                           const SurfacePoint& point) const
 {
-    if (!levels_.shadows || !shading_.shadow)
-        return 1;
-    const double reach = directional ? std::numeric_limits<double>::infinity() : light.distance_m;
-    return surfaces_.blocked(point.lifted, to_glm(light.direction), reach) ? 0 : 1;
+    return !levels_.shadows || !shading_.shadow || surfaces_.reached_by(light, sample, point) ? 1 : 0;
 }
 
 base::Color PathTracer::direct(const SurfacePoint& point, const glm::dvec3& normal) const
 {
     base::Color sum = black;
     for (const optics::Light& light : scene_.lights) {
-        const optics::LightSample sample = optics::sample_light(light, {point.at.x, point.at.y, point.at.z});
-        const double cosine = glm::dot(normal, to_glm(sample.direction));
+        const optics::LightSample sample = optics::sample_light(light, head::to_cv(point.at));
+        const double cosine = glm::dot(normal, head::to_glm(sample.direction));
         if (cosine > 0 && largest(sample.strength) > 0)
-            sum += cosine * visible(point, sample, light.kind == optics::LightKind::Directional) *
-                   sample.strength;
+            sum += cosine * visible(light, sample, point) * sample.strength;
     }
     return sum;
 }
@@ -158,23 +149,21 @@ base::Color PathTracer::specular(const SurfacePoint& point, const glm::dvec3& no
                                  const glm::dvec3& to_viewer) const
 {
     optics::Shading gloss = wound::with_gloss(shading_, point.skin.skin);
-    gloss.rho_s *= point.look->specular;
-    gloss.alpha_x *= point.look->slope;
-    gloss.alpha_y *= point.look->slope;
+    gloss.rho_s *= point.look->gloss.specular;
+    gloss.alpha_x *= point.look->gloss.slope;
+    gloss.alpha_y *= point.look->gloss.slope;
     base::Color sum = black;
     if (gloss.rho_s <= 0)
         return sum;
     const glm::dmat3 frame = tangent_frame(normal, point.tangent);
     const glm::dvec3 outgoing = to_viewer * frame;
     for (const optics::Light& light : scene_.lights) {
-        const optics::LightSample sample = optics::sample_light(light, {point.at.x, point.at.y, point.at.z});
-        const glm::dvec3 incident = to_glm(sample.direction) * frame;
-        const double lobe =
-            optics::ward(gloss.ward_model, gloss.alpha_x, gloss.alpha_y, {incident.x, incident.y, incident.z},
-                         {outgoing.x, outgoing.y, outgoing.z});
+        const optics::LightSample sample = optics::sample_light(light, head::to_cv(point.at));
+        const glm::dvec3 incident = head::to_glm(sample.direction) * frame;
+        const double lobe = optics::ward(gloss.ward_model, gloss.alpha_x, gloss.alpha_y,
+                                         head::to_cv(incident), head::to_cv(outgoing));
         if (lobe > 0 && largest(sample.strength) > 0)
-            sum += gloss.rho_s * lobe * incident.z *
-                   visible(point, sample, light.kind == optics::LightKind::Directional) * sample.strength;
+            sum += gloss.rho_s * lobe * incident.z * visible(light, sample, point) * sample.strength;
     }
     return sum;
 }

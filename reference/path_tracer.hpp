@@ -51,7 +51,9 @@ class PathTracer
                                 const base::Color& albedo, std::uint64_t key) const;
     base::Color specular(const SurfacePoint& point, const glm::dvec3& normal,
                          const glm::dvec3& to_viewer) const;
-    double visible(const SurfacePoint& point, const optics::LightSample& light, bool directional) const;
+    /// 1 or 0.
+    double visible(const optics::Light& light, const optics::LightSample& sample,
+                   const SurfacePoint& point) const;
 
     const scene::LoadedScene& scene_;
     const optics::Shading& shading_;

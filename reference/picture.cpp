@@ -12,10 +12,7 @@ namespace {
 
 base::Lab encoded_lab(const cv::Vec3f& sum, float samples, double alpha, double stops, double height)
 {
-    base::Color seen = base::on_backdrop(base::Color(sum) / double(samples), alpha, stops, height);
-    for (double& channel : seen.val)
-        channel = std::min(channel, 1.0);
-    return base::lab_from_linear(seen);
+    return base::shown_lab(base::Color(sum) / double(samples), alpha, stops, height);
 }
 
 } // namespace

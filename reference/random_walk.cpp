@@ -118,7 +118,7 @@ class Walk
         weight_ = weight_.mul(density).mul(medium_.single_albedo) / mixture;
         at_ += std::min(path, distance) * direction_;
         direction_ = glm::normalize(
-            direction_about(direction_, henyey_greenstein_cosine(medium_.g, draws_[2]), draws_[3]));
+            direction_about(direction_, optics::henyey_greenstein_cosine(medium_.g, draws_[2]), draws_[3]));
     }
 
     bool survives()
@@ -146,14 +146,6 @@ class Walk
 };
 
 } // namespace
-
-double henyey_greenstein_cosine(double g, double u)
-{
-    if (std::abs(g) < 1e-6)
-        return 2 * u - 1;
-    const double q = (1 - g * g) / (1 - g + 2 * g * u);
-    return std::clamp((1 + g * g - q * q) / (2 * g), -1.0, 1.0);
-}
 
 std::optional<SurfaceHit> HalfSpace::first_on_ray(const glm::dvec3& origin, const glm::dvec3& direction,
                                                   double reach) const

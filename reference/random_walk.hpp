@@ -79,7 +79,4 @@ struct WalkEnds
 WalkEnds random_walk(const Medium& medium, const Body& body, const glm::dvec3& from, const glm::dvec3& normal,
                      std::uint64_t key);
 
-/// Cosine of the deflection after Henyey & Greenstein 1941; `u` in 0..1.
-double henyey_greenstein_cosine(double g, double u);
-
 } // namespace reference

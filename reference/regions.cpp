@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/parallel.hpp"
+#include "head/vectors.hpp"
 #include "reference/surface.hpp"
 
 namespace reference {
@@ -22,7 +23,7 @@ class Classifier
 {
   public:
     Classifier(const scene::LoadedScene& scene, const Request& request)
-        : scene_(scene), request_(request), table_(0, 1), wounds_(scene, request.day, table_, {}, false),
+        : scene_(scene), request_(request), wounds_(scene, request.day, std::nullopt),
           surfaces_(scene, wounds_), size_(int(request.size[0]), int(request.size[1])), reached_(size_.area())
     {
         for (cv::Mat1b& region : regions_)
@@ -45,9 +46,8 @@ class Classifier
     void classify(int x, int y)
     {
         const glm::dvec3 eye = request_.camera.eye;
-        const glm::dvec3 sight = glm::normalize(
-            head::sight_through(request_.camera, 2 * (x + .5) / size_.width - 1,
-                                2 * (y + .5) / size_.height - 1, double(size_.width) / size_.height));
+        const glm::dvec3 sight =
+            glm::normalize(head::sight_through_pixel(request_.camera, {x + .5, y + .5}, size_));
         const std::optional<head::Hit> hit = surfaces_.seen(eye, sight, 0);
         if (!hit || surfaces_.look(*hit).surface != head::Surface::Skin)
             return;
@@ -66,15 +66,9 @@ class Classifier
         Reached reached;
         for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
             const optics::Light& light = scene_.lights[i];
-            const optics::LightSample sample =
-                optics::sample_light(light, {point.at.x, point.at.y, point.at.z});
-            const glm::dvec3 towards(sample.direction[0], sample.direction[1], sample.direction[2]);
-            if (glm::dot(point.smooth, towards) <= 0)
-                continue;
-            const double reach = light.kind == optics::LightKind::Directional
-                                     ? std::numeric_limits<double>::infinity()
-                                     : sample.distance_m;
-            (surfaces_.blocked(point.lifted, towards, reach) ? reached.blocked : reached.lit) |= 1u << i;
+            const optics::LightSample sample = optics::sample_light(light, head::to_cv(point.at));
+            if (glm::dot(point.smooth, head::to_glm(sample.direction)) > 0)
+                (surfaces_.reached_by(light, sample, point) ? reached.lit : reached.blocked) |= 1u << i;
         }
         return reached;
     }
@@ -98,7 +92,6 @@ class Classifier
 
     const scene::LoadedScene& scene_;
     const Request& request_;
-    const AlbedoTable table_;
     const DayWounds wounds_;
     const Surfaces surfaces_;
     const cv::Size size_;

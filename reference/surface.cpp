@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "head/vectors.hpp"
 #include "reference/directions.hpp"
 #include "reference/texture.hpp"
 
@@ -19,19 +20,12 @@ glm::dvec3 normalize_or(const glm::dvec3& v, const glm::dvec3& otherwise)
     return length > 1e-30 ? v / length : otherwise;
 }
 
-/// As part_params() of passes/forward.cpp.
 MaterialLook look_of(const head::Model& model, std::uint32_t index, std::uint32_t skin)
 {
     const head::Material& material = model.materials[index];
-    MaterialLook look{&material, head::surface_of(model, index, skin),
-                      material.alpha != head::AlphaMode::Opaque, material.double_sided};
-    if (look.surface == head::Surface::Eye) {
-        look.slope = 0.2;
-        look.specular = 0.5;
-    } else if (look.surface != head::Surface::Skin) {
-        look.specular = 0;
-    }
-    return look;
+    const head::Surface surface = head::surface_of(model, index, skin);
+    return {&material, surface, material.alpha != head::AlphaMode::Opaque, material.double_sided,
+            head::gloss_of(surface)};
 }
 
 /// Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II, ch. 4: the mean of the point's
@@ -90,11 +84,16 @@ std::optional<head::Hit> Surfaces::met(const glm::dvec3& origin, const glm::dvec
                : scene_.head->bvh->nearest(origin, direction, nearest_m, endless);
 }
 
-bool Surfaces::blocked(const glm::dvec3& origin, const glm::dvec3& direction, double reach) const
+bool Surfaces::reached_by(const optics::Light& light, const optics::LightSample& sample,
+                          const SurfacePoint& point) const
 {
     const auto solid = [&](const head::Hit& hit) { return !look(hit).blended; };
-    return masked_ ? scene_.head->bvh->any(origin, direction, reach, solid)
-                   : scene_.head->bvh->any(origin, direction, reach);
+    const double reach = light.kind == optics::LightKind::Directional
+                             ? std::numeric_limits<double>::infinity()
+                             : sample.distance_m;
+    const glm::dvec3 towards = head::to_glm(sample.direction);
+    return !(masked_ ? scene_.head->bvh->any(point.lifted, towards, reach, solid)
+                     : scene_.head->bvh->any(point.lifted, towards, reach));
 }
 
 SurfacePoint Surfaces::point(const head::Hit& hit) const
@@ -129,11 +128,10 @@ SurfacePoint Surfaces::point(const head::Hit& hit) const
         const glm::dvec3 scaled(glm::dvec2(mapped) * double(material.normal_scale), std::max(mapped.z, 0.05));
         point.normal = normalize_or(tangent_frame(point.smooth, point.tangent) * scaled, point.smooth);
     }
-    point.skin.skin = {{albedo.r, albedo.g, albedo.b}, {point.normal.x, point.normal.y, point.normal.z}};
+    point.skin.skin = {{albedo.r, albedo.g, albedo.b}, head::to_cv(point.normal)};
     if (point.look->surface == head::Surface::Skin) {
         point.skin = wounds_.at(point.at, point.smooth, point.skin.skin);
-        const cv::Vec3d& n = point.skin.skin.normal;
-        point.normal = {n[0], n[1], n[2]};
+        point.normal = head::to_glm(point.skin.skin.normal);
     }
     return point;
 }

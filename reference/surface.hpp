@@ -17,7 +17,7 @@ struct MaterialLook
     const head::Material* material = nullptr;
     head::Surface surface = head::Surface::Skin;
     bool blended = false, double_sided = false;
-    double specular = 1, slope = 1; // factors on the lobe
+    head::Gloss gloss;
 };
 
 struct SurfacePoint
@@ -45,7 +45,9 @@ class Surfaces : public Body
     std::optional<head::Hit> seen(const glm::dvec3& origin, const glm::dvec3& direction, double tmin) const;
     /// The first surface that light meets, from either side; hair and lashes let it pass.
     std::optional<head::Hit> met(const glm::dvec3& origin, const glm::dvec3& direction) const;
-    bool blocked(const glm::dvec3& origin, const glm::dvec3& direction, double reach) const;
+    /// Whether no surface keeps the light from the point. `sample`: of the light, at the point.
+    bool reached_by(const optics::Light& light, const optics::LightSample& sample,
+                    const SurfacePoint& point) const;
 
     SurfacePoint point(const head::Hit& hit) const;
     /// Where a walk has left the skin.

@@ -41,19 +41,34 @@ struct Misfit
     double squares = 0, worst = 0;
 };
 
-/// Even in the logarithm of the distance, so that dx is in proportion to x.
-Misfit misfit(const DiffusionProfile& layers, const DiffusionProfile& medium, double mean_free_path_mm)
+/// Brightness at distances from the border of a half-lit plane. The distances are even in their logarithm, so
+/// that dx is in proportion to x.
+struct EdgeResponse
+{
+    std::vector<double> x_mm, brightness;
+
+    explicit EdgeResponse(const DiffusionProfile& layers)
+    {
+        for (double x = .01; x < 20; x *= 1.15) {
+            x_mm.push_back(x);
+            brightness.push_back(layers.beyond_edge(x));
+        }
+    }
+};
+
+Misfit misfit(const EdgeResponse& layers, const DiffusionProfile& medium, double mean_free_path_mm)
 {
     Misfit result;
-    for (double x_mm = .01; x_mm < 20; x_mm *= 1.15) {
-        const double off = layers.beyond_edge(x_mm) - medium.beyond_edge(x_mm / mean_free_path_mm);
+    for (std::size_t i = 0; i < layers.x_mm.size(); ++i) {
+        const double x_mm = layers.x_mm[i];
+        const double off = layers.brightness[i] - medium.beyond_edge(x_mm / mean_free_path_mm);
         result.squares += off * off * x_mm;
         result.worst = std::max(result.worst, std::abs(off));
     }
     return result;
 }
 
-Fit fit(const DiffusionProfile& layers, const DiffusionProfile& medium)
+Fit fit(const EdgeResponse& layers, const DiffusionProfile& medium)
 {
     constexpr double shortest_mm = 1e-3, longest_mm = 100, step = 1.01;
     Fit best{shortest_mm, 0};
@@ -81,29 +96,42 @@ std::uint64_t key_of(const optics::SkinLayers& layers, const MediumChoice& choic
     return hash.value();
 }
 
-json to_json(const base::Color& color)
+json list(const base::Color& color)
 {
     return {color[0], color[1], color[2]};
 }
 
-/// Throws json::exception for what is not there or no three numbers.
+/// Throws json::exception for what is missing or not three numbers.
 base::Color color_from(const json& object, const char* name)
 {
-    const json& list = object.at(name);
-    return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
+    const json& values = object.at(name);
+    return {values.at(0).get<double>(), values.at(1).get<double>(), values.at(2).get<double>()};
 }
 
 } // namespace
 
-Medium ReducedTissue::with_albedo(const base::Color& diffuse, const AlbedoTable& table,
-                                  const MediumChoice& choice) const
+void to_json(json& to, const ReducedTissue& tissue)
 {
-    Medium medium{.g = choice.anisotropy, .n = choice.index};
-    medium.single_albedo = table.single_of(diffuse);
-    for (int c = 0; c < 3; ++c) {
-        const double scattering = table.single_of(albedo[c]) / (1e-3 * mean_free_path_mm[c]);
-        medium.extinction[c] = scattering / std::max(medium.single_albedo[c], .05);
-    }
+    to = {{"albedo", list(tissue.albedo)},
+          {"mean_free_path_mm", list(tissue.mean_free_path_mm)},
+          {"diffuse_mean_free_path_mm", list(tissue.diffuse_mean_free_path_mm)},
+          {"worst_edge", list(tissue.worst_edge)},
+          {"scattering_per_m", list(tissue.scattering_per_m)}};
+}
+
+void from_json(const json& from, ReducedTissue& tissue)
+{
+    tissue = {color_from(from, "albedo"), color_from(from, "mean_free_path_mm"),
+              color_from(from, "diffuse_mean_free_path_mm"), color_from(from, "worst_edge"),
+              color_from(from, "scattering_per_m")};
+}
+
+Medium medium_of(const base::Color& scattering_per_m, const base::Color& single_albedo,
+                 const MediumChoice& choice)
+{
+    Medium medium{.single_albedo = single_albedo, .g = choice.anisotropy, .n = choice.index};
+    for (int c = 0; c < 3; ++c)
+        medium.extinction[c] = scattering_per_m[c] / std::max(single_albedo[c], .05);
     return medium;
 }
 
@@ -118,8 +146,9 @@ ReducedTissue reduce(const optics::SkinLayers& layers, const AlbedoTable& table,
         const double single = table.single_of(reduced.albedo[c]);
         const Fit found = profile.albedo < least_albedo
                               ? Fit{.05, 0}
-                              : fit(profile, profile_of_medium(single, choice, 50'000));
+                              : fit(EdgeResponse(profile), profile_of_medium(single, choice, 50'000));
         reduced.mean_free_path_mm[c] = found.mean_free_path_mm;
+        reduced.scattering_per_m[c] = single / (1e-3 * found.mean_free_path_mm);
         reduced.worst_edge[c] = found.worst;
         const double absorption = 1 - single, scattering = single * (1 - choice.anisotropy);
         reduced.diffuse_mean_free_path_mm[c] =
@@ -135,9 +164,7 @@ ReducedTissue kept_reduction(const std::filesystem::path& folder, const optics::
     const std::filesystem::path path =
         folder / fmt::format("medium-{:016x}.json", key_of(layers, choice, photons));
     try {
-        const json kept = base::read_json(path);
-        return {color_from(kept, "albedo"), color_from(kept, "mean_free_path_mm"),
-                color_from(kept, "diffuse_mean_free_path_mm"), color_from(kept, "worst_edge")};
+        return base::read_json(path).get<ReducedTissue>();
     } catch (const base::InputError&) {
         // not there yet
     } catch (const json::exception&) {
@@ -146,10 +173,7 @@ ReducedTissue kept_reduction(const std::filesystem::path& folder, const optics::
     const ReducedTissue reduced = reduce(layers, table, choice, photons);
     try {
         base::make_folder(folder);
-        base::write_json(path, {{"albedo", to_json(reduced.albedo)},
-                                {"mean_free_path_mm", to_json(reduced.mean_free_path_mm)},
-                                {"diffuse_mean_free_path_mm", to_json(reduced.diffuse_mean_free_path_mm)},
-                                {"worst_edge", to_json(reduced.worst_edge)}});
+        base::write_json(path, reduced);
     } catch (const base::InputError&) {
         // the next run takes as long
     }

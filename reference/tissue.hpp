@@ -14,6 +14,7 @@
 // much and absorbs more or less.
 #pragma once
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 
 #include "reference/random_walk.hpp"
 #include "reference/single_albedo.hpp"
@@ -26,21 +27,24 @@ struct MediumChoice
 {
     double anisotropy = 0; // g, -.99...99
     double index = 1;      // refractive, 1..3; 1: matched to the air
-    bool operator==(const MediumChoice&) const = default;
 };
 
 /// Per channel.
 struct ReducedTissue
 {
-    base::Color albedo;                    // diffuse, of the layers
-    base::Color mean_free_path_mm;         // of the medium with that albedo
-    base::Color diffuse_mean_free_path_mm; // 1 / sqrt(3 sigma_a (sigma_a + sigma_s'))
-    base::Color worst_edge;                // largest difference of the edge responses
-
-    /// The medium that scatters as this one and has this diffuse albedo.
-    Medium with_albedo(const base::Color& diffuse, const AlbedoTable& table,
-                       const MediumChoice& choice) const;
+    base::Color albedo{0, 0, 0};                    // diffuse, of the layers
+    base::Color mean_free_path_mm{0, 0, 0};         // of the medium with that albedo
+    base::Color diffuse_mean_free_path_mm{0, 0, 0}; // 1 / sqrt(3 sigma_a (sigma_a + sigma_s'))
+    base::Color worst_edge{0, 0, 0};                // largest difference of the edge responses
+    base::Color scattering_per_m{0, 0, 0};          // sigma_s of the medium
 };
+/// As reference.json holds it. from_json() throws json::exception for anything else.
+void to_json(nlohmann::json& json, const ReducedTissue& tissue);
+void from_json(const nlohmann::json& json, ReducedTissue& tissue);
+
+/// The medium that scatters so much and has this single-scattering albedo.
+Medium medium_of(const base::Color& scattering_per_m, const base::Color& single_albedo,
+                 const MediumChoice& choice);
 
 /// Tissue of 1, 3 or optics::wavelength_count channels. `photons` per wavelength. All cores work. Throws
 /// base::InputError for tissue in which photons walk for ever.

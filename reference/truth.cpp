@@ -14,13 +14,14 @@
 #include "base/parallel.hpp"
 #include "reference/kept.hpp"
 #include "reference/stratified.hpp"
+#include "reference/traceable.hpp"
 #include "scene/field_table.hpp"
 #include "scene/file.hpp"
 
 namespace reference {
 namespace {
 
-constexpr int picture_version = 1; // goes up when the same scene gives another picture
+constexpr int picture_version = 2; // goes up when the same scene gives another picture
 constexpr std::uint64_t most_pixels = 1u << 25;
 constexpr double seconds_between_savings = 120;
 
@@ -28,22 +29,6 @@ double cpu_seconds()
 {
     return double(std::clock()) / CLOCKS_PER_SEC; // of the process, all threads
 }
-
-/// Everything that rays need of a scene on a day.
-struct Traceable
-{
-    AlbedoTable table;
-    DayWounds wounds;
-    Surfaces surfaces;
-    PathTracer tracer;
-
-    Traceable(const scene::LoadedScene& scene, const Request& request)
-        : table(request.levels.medium.anisotropy, request.levels.medium.index),
-          wounds(scene, request.day, table, request.levels.medium, request.levels.subsurface),
-          surfaces(scene, wounds), tracer(scene, surfaces, wounds, request.levels)
-    {
-    }
-};
 
 class Tracing
 {
@@ -53,6 +38,8 @@ class Tracing
         : scene_(scene), request_(request), until_(until), progress_(progress), options_(options),
           exposure_(scene.scene.exposure_stops)
     {
+        if (!until_.samples && !until_.noise_de && !until_.seconds)
+            until_.noise_de = usual_noise_de;
     }
 
     /// Adds passes until the picture is good enough. `save` is called now and then, and at the end when
@@ -61,13 +48,14 @@ class Tracing
     void run(Truth& truth, const Save& save)
     {
         judge(truth);
-        if (good_enough(truth) || options_.only_cached)
+        if (good_enough(truth))
             return;
         progress_.show("preparing");
-        const Traceable traceable(scene_, request_);
+        const Traceable traceable(scene_, request_.levels, request_.day);
         if (request_.levels.subsurface)
             truth.skin = traceable.wounds.skin();
         saved_ = start_ = Clock::now();
+        begun_with_ = truth.picture.samples();
         try {
             while (!good_enough(truth)) {
                 add_pass(traceable.tracer, truth);
@@ -90,13 +78,19 @@ class Tracing
         return std::chrono::duration<double>(Clock::now() - then).count();
     }
 
-    void judge(Truth& truth) const { truth.noise_de = truth.picture.noise_de(exposure_); }
+    void judge(Truth& truth)
+    {
+        if (judged_ != truth.picture.passes() || judged_ == 0)
+            truth.noise_de = truth.picture.noise_de(exposure_);
+        judged_ = truth.picture.passes();
+    }
 
     bool good_enough(const Truth& truth) const
     {
         return (until_.samples && truth.picture.samples() >= *until_.samples) ||
                (until_.noise_de && truth.noise_de <= *until_.noise_de) ||
-               (until_.seconds && start_ != Clock::time_point{} && seconds_since(start_) >= *until_.seconds);
+               (until_.seconds && start_ != Clock::time_point{} && truth.picture.passes() >= 2 &&
+                seconds_since(start_) >= *until_.seconds);
     }
 
     void add_pass(const PathTracer& tracer, Truth& truth)
@@ -119,7 +113,6 @@ class Tracing
     void trace_row(const PathTracer& tracer, int y, const Picture& picture)
     {
         const cv::Size size = picture.size();
-        const double aspect = double(size.width) / size.height;
         for (int x = 0; x < size.width; ++x) {
             const std::uint64_t pixel = std::uint64_t(y) * std::uint64_t(size.width) + std::uint64_t(x);
             PixelSums& sums = scratch_[pixel];
@@ -128,8 +121,7 @@ class Tracing
                 Random random(request_.seed, pixel, sample);
                 const auto place = stratified(sample, Random::mixed(request_.seed) ^ Random::mixed(~pixel));
                 const glm::dvec3 sight =
-                    head::sight_through(request_.camera, 2 * (x + place[0]) / size.width - 1,
-                                        2 * (y + place[1]) / size.height - 1, aspect);
+                    head::sight_through_pixel(request_.camera, {x + place[0], y + place[1]}, size);
                 const Radiance seen = tracer.along(request_.camera.eye, sight, random);
                 sums.diffuse += cv::Vec3f(seen.diffuse);
                 sums.diffuse_squares += cv::Vec3f(seen.diffuse.mul(seen.diffuse));
@@ -166,7 +158,7 @@ class Tracing
         std::string text = fmt::format("{} samples", samples);
         if (std::isfinite(truth.noise_de))
             text += fmt::format(", noise {:.2f} dE", truth.noise_de);
-        const double elapsed = seconds_since(start_), made = samples - begun_with(truth);
+        const double elapsed = seconds_since(start_), made = samples - begun_with_;
         double left = until_.seconds ? std::max(0.0, *until_.seconds - elapsed) : 1e9;
         if (made > 0) {
             const double each = elapsed / made;
@@ -179,22 +171,16 @@ class Tracing
         return left < 1e9 ? text + fmt::format(", {}:{:02} left", long(left) / 60, long(left) % 60) : text;
     }
 
-    std::uint32_t begun_with(const Truth& truth) const
-    {
-        if (!begun_with_)
-            begun_with_ = truth.picture.samples();
-        return *begun_with_;
-    }
-
     const scene::LoadedScene& scene_;
     const Request& request_;
-    const Until& until_;
+    Until until_;
     base::Progress& progress_;
     const TruthOptions& options_;
     const double exposure_;
     std::vector<PixelSums> scratch_; // of the pass in hand
     Clock::time_point start_{}, saved_{};
-    mutable std::optional<std::uint32_t> begun_with_;
+    std::uint32_t begun_with_ = 0; // samples at the start
+    std::uint32_t judged_ = 0;     // passes when the noise was last measured
 };
 
 void hash_files(base::Hash& hash, const scene::LoadedScene& scene)

@@ -27,7 +27,10 @@ struct Request
     std::uint64_t seed = 1;
 };
 
-/// How good it has to be: whatever is reached first ends the work. None of them: until interrupted.
+/// Noise to which a picture is traced when nothing is said, CIEDE2000.
+inline constexpr double usual_noise_de = .5;
+
+/// How good it has to be: whatever is reached first ends the work. None of them: usual_noise_de.
 struct Until
 {
     std::optional<std::uint32_t> samples; // per pixel; whole passes are made
@@ -49,9 +52,8 @@ void check_request(const scene::LoadedScene& scene, const Request& request);
 
 struct TruthOptions
 {
-    unsigned threads = 0;     // 0: one per core
-    bool use_cache = true;    // begin where an earlier run ended, and keep what this one made
-    bool only_cached = false; // trace nothing
+    unsigned threads = 0;  // 0: one per core
+    bool use_cache = true; // begin where an earlier run ended, and keep what this one made
 };
 
 /// Traces what the cache does not hold. After Ctrl-C it returns what is done so far, which is kept, too.

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "base/file.hpp"
+#include "base/statistics.hpp"
 #include "head/albedo_under.hpp"
+#include "head/vectors.hpp"
 #include "wound/drawn_region.hpp"
 #include "wound/optics/tissue_choice.hpp"
 #include "wound/reflectance_table.hpp"
@@ -12,53 +14,44 @@
 namespace reference {
 namespace {
 
-cv::Vec3d to_cv(const glm::dvec3& v)
-{
-    return {v.x, v.y, v.z};
-}
-
-/// As Stage has them: of the models that no shader knows, with fewer angles and photons.
+/// As Stage has them.
 cv::Mat3f reflectance_table(const wound::LutRows& rows, optics::ReflectanceModel model)
 {
-    const optics::ReflectanceOptions options{.angles = 4, .photons = 2000};
     return model > optics::ReflectanceModel::Calibrated
-               ? wound::kept_table(rows, wound::lut_size, model, options)
+               ? wound::kept_table(rows, wound::lut_size, model, wound::picture_table_options)
                : wound::bake_reflectance_table(rows.days, wound::lut_size, model);
 }
 
-/// Of day 0, where the bed is open today; a millimetre where it is not.
-double median_depth_mm(const wound::DayMaps& maps)
+/// Median of day 0's depth where one of the maps' coverages is above a half; a millimetre where none is.
+/// Channels of DayMaps::state.
+double median_depth_mm(const wound::DayMaps& maps, int depth, int coverage)
 {
-    std::vector<float> depths;
+    std::vector<double> depths;
     for (const cv::Vec4f& state : maps.state)
-        if (state[2] > .5f)
-            depths.push_back(state[0]);
-    if (depths.empty())
-        return 1;
-    const auto middle = depths.begin() + std::ptrdiff_t(depths.size() / 2);
-    std::ranges::nth_element(depths, middle);
-    return *middle;
+        if (state[coverage] > .5f)
+            depths.push_back(double(state[depth]));
+    return depths.empty() ? 1 : base::median(depths);
 }
 
 } // namespace
 
-DayWounds::DayWounds(const scene::LoadedScene& scene, double day, const AlbedoTable& table,
-                     const MediumChoice& choice, bool with_tissue)
-    : scene_(scene), table_(table), choice_(choice), today_(scene.wounds_on(day))
+DayWounds::DayWounds(const scene::LoadedScene& scene, double day, const std::optional<MediumChoice>& walked)
+    : scene_(scene), choice_(walked.value_or(MediumChoice{})), today_(scene.wounds_on(day))
 {
-    const double last_day = std::max(1.0, *std::ranges::max_element(scene.scene.days));
-    if (with_tissue)
-        skin_ = kept_reduction(base::cache_folder(), optics::layers_of(scene.tissue), table, choice);
+    if (walked) {
+        table_.emplace(choice_.anisotropy, choice_.index);
+        skin_ = kept_reduction(base::cache_folder(), optics::layers_of(scene.tissue), *table_, choice_);
+    }
+    const double last_day = scene::last_day(scene.scene);
     for (std::size_t i = 0; i < scene.wounds.size(); ++i) {
         const scene::PlacedWound& placed = scene.wounds[i];
         const wound::LutRows rows = wound::lut_rows(scene.tissue, placed.healing, wound::lut_size, last_day);
-        tables_.push_back(
-            std::make_shared<const cv::Mat3f>(reflectance_table(rows, scene.scene.reflectance_model)));
         const cv::Rect region =
             placed.region.empty() ? cv::Rect({}, placed.prepared().patch.color.size()) : placed.region;
         wounds_.push_back({placed.anchor, wound::maps_on(placed.prepared(), today_[i], region),
-                           tables_.back().get(), rows.axes, 1.8 * placed.anchor.half_width_m});
-        if (with_tissue)
+                           reflectance_table(rows, scene.scene.reflectance_model), rows.axes,
+                           1.8 * placed.anchor.half_width_m});
+        if (walked)
             tissues_.push_back({tissue_under(i, true, day), tissue_under(i, false, day)});
     }
 }
@@ -69,8 +62,9 @@ ReducedTissue DayWounds::tissue_under(std::size_t wound, bool bed, double day) c
     const optics::TissueDay tissue =
         bed ? optics::open_bed(scene_.tissue, day, wound::healing_at(healing, day).depth_scale)
             : optics::covered_bed(scene_.tissue, day, wound::closure_day(healing.curve));
-    return kept_reduction(base::cache_folder(),
-                          optics::layers_at(tissue, median_depth_mm(wounds_[wound].maps)), table_, choice_);
+    const wound::DayMaps& maps = wounds_[wound].maps;
+    const double depth_mm = bed ? median_depth_mm(maps, 0, 2) : median_depth_mm(maps, 1, 3);
+    return kept_reduction(base::cache_folder(), optics::layers_at(tissue, depth_mm), *table_, choice_);
 }
 
 DayWounds::SkinLook DayWounds::at(const glm::dvec3& position, const glm::dvec3& smooth,
@@ -87,10 +81,10 @@ DayWounds::SkinLook DayWounds::at(const glm::dvec3& position, const glm::dvec3& 
             continue;
         const wound::PatchPlace place{.at = {p.x, p.y},
                                       .facing = facing,
-                                      .right = to_cv(one.anchor.right),
-                                      .down = to_cv(one.anchor.down),
-                                      .geometric = to_cv(smooth)};
-        look.skin = wound::with_wound(look.skin, {today_[i], one.maps, *one.reflectance, one.axes}, place,
+                                      .right = head::to_cv(one.anchor.right),
+                                      .down = head::to_cv(one.anchor.down),
+                                      .geometric = head::to_cv(smooth)};
+        look.skin = wound::with_wound(look.skin, {today_[i], one.maps, one.reflectance, one.axes}, place,
                                       scene_.scene.shading.blend_model);
         const wound::MapSample here = wound::sample(one.maps, place.at);
         const double opacity = here.color[3] * facing, bed = here.state[2] * opacity;
@@ -105,17 +99,14 @@ DayWounds::SkinLook DayWounds::at(const glm::dvec3& position, const glm::dvec3& 
 
 Medium DayWounds::medium(const SkinLook& look, const base::Color& diffuse_albedo) const
 {
-    Medium medium = skin_.with_albedo(diffuse_albedo, table_, choice_);
-    if (look.bed + look.covered <= 0)
-        return medium;
-    const WoundTissue& tissue = tissues_[look.wound];
-    const Medium bed = tissue.bed.with_albedo(diffuse_albedo, table_, choice_),
-                 covered = tissue.covered.with_albedo(diffuse_albedo, table_, choice_);
-    const double own = std::max(0.0, 1 - look.bed - look.covered);
-    medium.extinction =
-        (own * medium.extinction + look.bed * bed.extinction + look.covered * covered.extinction) /
-        (own + look.bed + look.covered);
-    return medium;
+    base::Color scattering = skin_.scattering_per_m;
+    if (const double own = std::max(0.0, 1 - look.bed - look.covered); own < 1) {
+        const WoundTissue& tissue = tissues_[look.wound];
+        scattering = (own * scattering + look.bed * tissue.bed.scattering_per_m +
+                      look.covered * tissue.covered.scattering_per_m) /
+                     (own + look.bed + look.covered);
+    }
+    return medium_of(scattering, table_->single_of(diffuse_albedo), choice_);
 }
 
 } // namespace reference

@@ -2,7 +2,7 @@
 // under it.
 #pragma once
 #include <glm/glm.hpp>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "reference/tissue.hpp"
@@ -21,10 +21,9 @@ struct WoundTissue
 class DayWounds
 {
   public:
-    /// Keeps a reference to `scene`. All cores work; with subsurface scattering it may take seconds when a
-    /// tissue is first seen.
-    DayWounds(const scene::LoadedScene& scene, double day, const AlbedoTable& table,
-              const MediumChoice& choice, bool with_tissue);
+    /// Keeps a reference to `scene`. `walked`: the medium in which light walks under the skin; none: medium()
+    /// must not be called. All cores work; with a medium it may take seconds when a tissue is first seen.
+    DayWounds(const scene::LoadedScene& scene, double day, const std::optional<MediumChoice>& walked);
 
     struct SkinLook
     {
@@ -39,26 +38,23 @@ class DayWounds
     Medium medium(const SkinLook& look, const base::Color& diffuse_albedo) const;
 
     const ReducedTissue& skin() const { return skin_; }
-    /// What is shown today, in the order of the scene's placed wounds.
-    const std::vector<wound::WoundDay>& today() const { return today_; }
 
   private:
     struct One
     {
         head::Anchor anchor;
         wound::DayMaps maps;
-        const cv::Mat3f* reflectance;
+        cv::Mat3f reflectance;
         shared::LutAxes axes;
         double reach_m;
     };
     ReducedTissue tissue_under(std::size_t wound, bool bed, double day) const;
 
     const scene::LoadedScene& scene_;
-    const AlbedoTable& table_;
     MediumChoice choice_;
+    std::optional<AlbedoTable> table_; // with a medium
     ReducedTissue skin_;
     std::vector<wound::WoundDay> today_;
-    std::vector<std::shared_ptr<const cv::Mat3f>> tables_;
     std::vector<One> wounds_;
     std::vector<WoundTissue> tissues_;
 };

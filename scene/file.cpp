@@ -98,4 +98,9 @@ std::array<std::uint32_t, 2> parse_size(const std::string& text, const std::stri
     return size;
 }
 
+json numbers_of(const glm::dvec3& v)
+{
+    return {v.x, v.y, v.z};
+}
+
 } // namespace scene

@@ -32,6 +32,9 @@ Scene with_files(Scene scene,
 /// cannot be written.
 void save_scene(const std::filesystem::path& path, const Scene& scene);
 
+/// A point or vector as an array of three.
+nlohmann::json numbers_of(const glm::dvec3& v);
+
 /// "segmentation": {"seed": [x, y], "rect": [x, y, w, h]}; messages begin with `where`. Throws
 /// base::InputError.
 wound::SegmentationHints read_hints(const nlohmann::json& object, const std::string& where);

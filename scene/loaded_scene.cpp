@@ -8,6 +8,7 @@
 #include "base/input_error.hpp"
 #include "head/albedo_under.hpp"
 #include "head/surface.hpp"
+#include "head/vectors.hpp"
 #include "wound/optics/tissue_choice.hpp"
 #include "wound/prepare.hpp"
 
@@ -20,11 +21,6 @@ double head_height(const head::FaceFrame& face)
     return 1.65 * face.unit_m;
 }
 
-cv::Vec3d to_cv(const glm::dvec3& v)
-{
-    return {v.x, v.y, v.z};
-}
-
 optics::Light make_light(const Light& light, const head::FaceFrame& face)
 {
     const glm::dvec3 towards = unit_towards(light.from), middle = face_middle(face);
@@ -32,8 +28,8 @@ optics::Light make_light(const Light& light, const head::FaceFrame& face)
     made.kind = light.directional ? optics::LightKind::Directional
                 : light.falloff   ? optics::LightKind::Point
                                   : optics::LightKind::PointWithoutFalloff;
-    made.position = to_cv(middle + light.distance_m * towards);
-    made.direction = to_cv(towards);
+    made.position = head::to_cv(middle + light.distance_m * towards);
+    made.direction = head::to_cv(towards);
     made.strength = cv::Vec3d(light.color[0], light.color[1], light.color[2]) * light.intensity;
     made.reference_distance_m = std::max(light.distance_m, 1e-3);
     made.translucency_distance = optics::paper_distance(head_height(face), light.distance_m);
@@ -50,7 +46,7 @@ std::vector<optics::Light> make_lights(const Scene& scene, const head::FaceFrame
         optics::check_light(made[i], fmt::format("scene: /lights/{}", i));
         optics::check_shading(
             scene.shading,
-            optics::translucency_distances(made[i], to_cv(face_middle(face)), head_height(face)),
+            optics::translucency_distances(made[i], head::to_cv(face_middle(face)), head_height(face)),
             "scene: /shading");
     }
     return made;

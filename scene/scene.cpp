@@ -1,5 +1,6 @@
 #include "scene/scene.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "base/input_error.hpp"
@@ -11,6 +12,11 @@ namespace scene {
 std::string name_of(const Wound& wound, std::size_t index)
 {
     return wound.photo.empty() ? fmt::format("wound {}", index + 1) : wound.photo.string();
+}
+
+double last_day(const Scene& scene)
+{
+    return std::max(1.0, *std::ranges::max_element(scene.days));
 }
 
 void make_published(Scene& scene)

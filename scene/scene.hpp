@@ -88,6 +88,9 @@ struct Scene
 /// The wound's name in messages: the photograph's path, or for example "wound 2".
 std::string name_of(const Wound& wound, std::size_t index);
 
+/// The last of the days, at least 1: reflectance tables reach so far.
+double last_day(const Scene& scene);
+
 /// Sets everything as in the paper: its equations, Table 1, contraction alone, one light without falloff, no
 /// shadow, no ambient light.
 void make_published(Scene& scene);

@@ -1,4 +1,4 @@
-// Projects the head's vertices to the key light's clip space.
+// Projects the head's vertices to a light's tile of the depth image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scene/file.hpp"
+
 namespace stage {
 namespace {
 using nlohmann::json;
@@ -17,19 +19,14 @@ json rows_of(const glm::dmat4& matrix)
 
 } // namespace
 
-json numbers_of(const glm::dvec3& v)
-{
-    return {v.x, v.y, v.z};
-}
-
 json camera_record(const Stage& stage, const head::Camera& camera, std::array<std::uint32_t, 2> size)
 {
     const double focal = size[1] / 2.0 / std::tan(glm::radians(camera.fov_deg) / 2);
     // Converts from OpenGL's camera axes (y up, looking along -z) to those of computer vision.
     const glm::dmat4 camera_from_world =
         glm::scale(glm::dmat4(1), glm::dvec3(1, -1, -1)) * head::view_from_world(camera);
-    return {{"eye", numbers_of(camera.eye)},
-            {"target", numbers_of(camera.target)},
+    return {{"eye", scene::numbers_of(camera.eye)},
+            {"target", scene::numbers_of(camera.target)},
             {"fov_deg", camera.fov_deg},
             {"clip_from_world",
              rows_of(glm::dmat4(stage.view(camera, passes::ViewportTile(size)).clip_from_world))},

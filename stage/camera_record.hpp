@@ -6,9 +6,6 @@
 
 namespace stage {
 
-/// An array of three.
-nlohmann::json numbers_of(const glm::dvec3& v);
-
 /// eye, target (metres, the head's coordinates), fov_deg (vertical), clip_from_world (of Vulkan: y down,
 /// depth 0 to 1), camera_from_world (x right, y down, z forward, metres) and intrinsics fx, fy, cx, cy in
 /// pixels (the top left pixel's centre is at 0.5, 0.5). Matrices are arrays of four rows that act on columns.

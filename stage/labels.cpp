@@ -6,7 +6,7 @@
 
 #include "base/file.hpp"
 #include "base/image_io.hpp"
-#include "stage/camera_record.hpp"
+#include "scene/file.hpp"
 
 namespace stage {
 namespace {
@@ -67,8 +67,8 @@ json wound_entry(const Stage& stage, std::size_t index, const wound::WoundDay& t
              size.inside_mm2 > 0 ? std::clamp(seen.inside_mm2 / size.inside_mm2, 0.0, 1.0) : 0.0},
             {"deepest_mm", size.deepest_mm},
             {"volume_mm3", size.volume_mm3},
-            {"center_m", numbers_of(anchor.centre)},
-            {"normal", numbers_of(anchor.normal)}};
+            {"center_m", scene::numbers_of(anchor.centre)},
+            {"normal", scene::numbers_of(anchor.normal)}};
 }
 
 void add_regions(Coco& coco, int image, std::size_t number, const passes::LabelMaps& maps,

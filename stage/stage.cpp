@@ -10,15 +10,8 @@
 namespace stage {
 namespace {
 
-const optics::ReflectanceOptions table_options{.angles = 4, .photons = 2000}; // photons: per wavelength
-
 /// Number of cached days: enough for a report's alternating cases and for two stages side by side.
 constexpr std::size_t most_known_days = 4;
-
-double last_day(const scene::Scene& scene)
-{
-    return std::max(1.0, *std::ranges::max_element(scene.days));
-}
 
 /// Whether both scenes have the same wounds on every day.
 bool same_wounds(const scene::LoadedScene& a, const scene::LoadedScene& b)
@@ -150,7 +143,7 @@ passes::LutTissue Stage::lut_of(const Set& set, const wound::Healing& healing) c
             return set.wounds[i].tissue;
     const scene::Scene &now = set.loaded.scene, &before = set_.loaded.scene;
     if (!set_.wounds.empty() && now.tissue == before.tissue &&
-        now.reflectance_model == before.reflectance_model && last_day(now) == last_day(before))
+        now.reflectance_model == before.reflectance_model && scene::last_day(now) == scene::last_day(before))
         for (std::size_t i = 0; i < set_.wounds.size(); ++i)
             if (set_.loaded.wounds[i].healing == healing)
                 return set_.wounds[i].tissue;
@@ -160,11 +153,13 @@ passes::LutTissue Stage::lut_of(const Set& set, const wound::Healing& healing) c
 passes::LutTissue Stage::make_lut(const Set& set, const wound::Healing& healing) const
 {
     const scene::Scene& scene = set.loaded.scene;
-    const wound::LutRows rows = wound::lut_rows(set.loaded.tissue, healing, wound::lut_size, last_day(scene));
-    passes::LutTissue tissue = passes::lut_tissue(rows.days, last_day(scene));
+    const wound::LutRows rows =
+        wound::lut_rows(set.loaded.tissue, healing, wound::lut_size, scene::last_day(scene));
+    passes::LutTissue tissue = passes::lut_tissue(rows.days, scene::last_day(scene));
     if (scene.reflectance_model > optics::ReflectanceModel::Calibrated) // not implemented by the shader
         tissue.table = std::make_shared<gpu::Texture>(passes::upload_reflectance_table(
-            *device_, wound::kept_table(rows, wound::lut_size, scene.reflectance_model, table_options),
+            *device_,
+            wound::kept_table(rows, wound::lut_size, scene.reflectance_model, wound::picture_table_options),
             "reflectance table"));
     return tissue;
 }

@@ -1,9 +1,11 @@
 #include "stage/truth_error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <opencv2/imgproc.hpp>
 
 #include "base/interrupt.hpp"
+#include "base/statistics.hpp"
 #include "base/tone_curve.hpp"
 
 namespace stage {
@@ -18,19 +20,11 @@ cv::Mat4f supersampled(Renderer& renderer, const Stage& stage, const scene::Shot
     for (std::size_t axis = 0; axis < 2; ++axis)
         drawing.size[axis] = supersampling * stage.scene().size[axis];
     drawing.transparent = drawing.radiance = true;
+    drawing.areas = false;
     const cv::Mat4f large = draw(renderer, stage, shot, drawing).radiance;
     cv::Mat4f mean;
     cv::resize(large, mean, large.size() / int(supersampling), 0, 0, cv::INTER_AREA);
     return mean;
-}
-
-base::Lab shown_lab(const cv::Vec4f& radiance, double exposure_stops, double height)
-{
-    base::Color seen =
-        base::on_backdrop({radiance[0], radiance[1], radiance[2]}, radiance[3], exposure_stops, height);
-    for (double& channel : seen.val)
-        channel = std::clamp(channel, 0.0, 1.0);
-    return base::lab_from_linear(seen);
 }
 
 PixelErrors errors_of(const cv::Mat4f& ours, const cv::Mat4f& truth, const cv::Mat1f& noise, double exposure)
@@ -39,23 +33,23 @@ PixelErrors errors_of(const cv::Mat4f& ours, const cv::Mat4f& truth, const cv::M
     for (int y = 0; y < ours.rows; ++y)
         for (int x = 0; x < ours.cols; ++x) {
             const double height = (y + .5) / ours.rows;
-            const base::Lab a = shown_lab(ours(y, x), exposure, height),
-                            b = shown_lab(truth(y, x), exposure, height);
+            const auto lab = [&](const cv::Vec4f& p) {
+                return base::shown_lab({p[0], p[1], p[2]}, p[3], exposure, height);
+            };
+            const base::Lab a = lab(ours(y, x)), b = lab(truth(y, x));
             errors.de(y, x) = float(base::delta_e2000(a, b));
             errors.lab(y, x) = {float(a.l - b.l), float(a.a - b.a), float(a.b - b.b)};
         }
     return errors;
 }
 
-/// Pixels of a region that the head covers whole, in the picture and in the truth.
-cv::Mat1b covered(const cv::Mat1b& region, const cv::Mat4f& ours, const cv::Mat4f& truth)
+/// 255 where the head covers the pixel whole, in the picture and in the truth.
+cv::Mat1b covered_whole(const cv::Mat4f& ours, const cv::Mat4f& truth)
 {
-    cv::Mat1b inside = region.clone();
-    for (int y = 0; y < inside.rows; ++y)
-        for (int x = 0; x < inside.cols; ++x)
-            if (ours(y, x)[3] < .999f || truth(y, x)[3] < .999f)
-                inside(y, x) = 0;
-    return inside;
+    std::array<cv::Mat1f, 2> alpha;
+    cv::extractChannel(ours, alpha[0], 3);
+    cv::extractChannel(truth, alpha[1], 3);
+    return (alpha[0] >= .999f) & (alpha[1] >= .999f);
 }
 
 } // namespace
@@ -63,12 +57,12 @@ cv::Mat1b covered(const cv::Mat1b& region, const cv::Mat4f& ours, const cv::Mat4
 RegionError error_in(const cv::Mat1b& region, const PixelErrors& errors)
 {
     RegionError error;
-    std::vector<float> values;
+    std::vector<double> values;
     cv::Vec3d lab(0, 0, 0);
     for (int y = 0; y < region.rows; ++y)
         for (int x = 0; x < region.cols; ++x)
             if (region(y, x)) {
-                values.push_back(errors.de(y, x));
+                values.push_back(double(errors.de(y, x)));
                 error.noise += double(errors.noise(y, x));
                 error.mean += double(errors.de(y, x));
                 lab += cv::Vec3d(errors.lab(y, x));
@@ -82,11 +76,9 @@ RegionError error_in(const cv::Mat1b& region, const PixelErrors& errors)
     error.l = lab[0] / count;
     error.a = lab[1] / count;
     error.b = lab[2] / count;
-    std::ranges::sort(values);
-    const auto quantile = [&](double share) { return double(values[std::size_t(share * (count - 1))]); };
-    error.p95 = quantile(.95);
-    error.p999 = quantile(.999);
-    error.max = double(values.back());
+    error.p95 = base::quantile(values, .95);
+    error.p999 = base::quantile(values, .999);
+    error.max = *std::ranges::max_element(values);
     return error;
 }
 
@@ -106,8 +98,9 @@ TruthError measure_truth_error(Renderer& renderer, const Stage& stage, const sce
     result.errors = errors_of(result.ours, result.truth, result.traced.picture.noise_map(exposure), exposure);
     result.regions = reference::find_regions(stage.loaded(), request);
     result.shown = cv::Mat1b(result.ours.size(), uchar(0));
+    const cv::Mat1b whole = covered_whole(result.ours, result.truth);
     for (cv::Mat1b& region : result.regions) {
-        region = covered(region, result.ours, result.truth);
+        region &= whole;
         result.shown |= region;
     }
     return result;

@@ -9,6 +9,7 @@
 
 #include "base/file.hpp"
 #include "base/hash.hpp"
+#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "base/sampling.hpp"
 #include "wound/optics/chromophores.hpp"
@@ -113,37 +114,22 @@ cv::Mat3f bake_reflectance_table(std::span<const optics::TissueDay> rows, std::u
     const auto columns = static_cast<int>(width), count = static_cast<int>(rows.size()) * columns;
     cv::Mat3f table(static_cast<int>(rows.size()), columns);
     const auto deepest = static_cast<float>(deepest_injury_mm(rows.front().intact));
-    std::atomic<int> next{0};
+    std::atomic<int> finished{0};
     const std::thread::id caller = std::this_thread::get_id();
-    // If options.progress throws, all threads stop.
-    struct Stop
-    {
-        std::atomic<int>& next;
-        int count;
-        ~Stop() { next = count; }
-    };
-    const auto work = [&] {
-        const Stop stop{next, count};
-        optics::ReflectanceOptions alone = options;
-        alone.threads = 1;
-        alone.progress = {};
-        for (int i; (i = next++) < count;) {
-            const int y = i / columns, x = i % columns;
-            const float injury =
-                shared::lut_value(static_cast<float>(x), static_cast<float>(columns), deepest);
-            const optics::TissueDay& day = rows[static_cast<std::size_t>(y)];
-            const base::Color color = optics::tissue_color(optics::layers_at(day, injury), model, alone);
-            for (int c = 0; c < 3; ++c) // as displayable() in shaders/lib/reflectance.glsl
-                table(y, x)[c] = color[c] > 0 ? static_cast<float>(std::min(color[c], 65504.0)) : 0.0f;
-            if (options.progress && std::this_thread::get_id() == caller)
-                options.progress(static_cast<double>(i + 1) / count);
-        }
-    };
-    std::vector<std::jthread> threads;
-    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i)
-        threads.emplace_back(work);
-    work();
-    threads.clear(); // joins
+    optics::ReflectanceOptions alone = options;
+    alone.threads = 1;
+    alone.progress = {};
+    base::in_parallel(std::size_t(count), 0, [&](std::size_t i) {
+        const int y = int(i) / columns, x = int(i) % columns;
+        const float injury = shared::lut_value(static_cast<float>(x), static_cast<float>(columns), deepest);
+        const optics::TissueDay& day = rows[static_cast<std::size_t>(y)];
+        const base::Color color = optics::tissue_color(optics::layers_at(day, injury), model, alone);
+        for (int c = 0; c < 3; ++c) // as displayable() in shaders/lib/reflectance.glsl
+            table(y, x)[c] = color[c] > 0 ? static_cast<float>(std::min(color[c], 65504.0)) : 0.0f;
+        const int done = ++finished;
+        if (options.progress && std::this_thread::get_id() == caller)
+            options.progress(static_cast<double>(done) / count);
+    });
     return table;
 }
 

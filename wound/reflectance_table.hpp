@@ -47,6 +47,10 @@ cv::Mat3f cached_reflectance_table(const std::filesystem::path& folder,
                                    optics::ReflectanceModel model,
                                    const optics::ReflectanceOptions& options = {});
 
+/// For pictures, of the models that no shader knows: an error below what shows, for seconds or minutes of
+/// work.
+inline const optics::ReflectanceOptions picture_table_options{.angles = 4, .photons = 2000}; // per wavelength
+
 /// cached_reflectance_table() in base::cache_folder(), with progress on a terminal.
 cv::Mat3f kept_table(const LutRows& rows, std::uint32_t width, optics::ReflectanceModel model,
                      optics::ReflectanceOptions options);

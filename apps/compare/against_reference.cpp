@@ -7,12 +7,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "apps/compare/page.hpp"
-#include "base/axis.hpp"
 #include "base/file.hpp"
 #include "base/flip.hpp"
 #include "base/image_io.hpp"
 #include "base/input_error.hpp"
-#include "base/number_option.hpp"
 #include "base/tone_curve.hpp"
 #include "reference/command_line.hpp"
 #include "scene/file.hpp"
@@ -22,6 +20,8 @@
 namespace compare_command {
 namespace {
 using nlohmann::json;
+
+constexpr double top_de = 10; // of the maps' colours, and of the difference in L*
 
 json json_of(const stage::RegionError& error)
 {
@@ -52,11 +52,6 @@ class Comparison
         : options_(options), renderer_(stage::device_options(options)),
           stage_(renderer_.device, stage::Stage::prepare(scene))
     {
-        if (!options_.reference.until.samples && !options_.reference.until.noise_de &&
-            !options_.reference.until.seconds)
-            until_.noise_de = .5;
-        else
-            until_ = options_.reference.until;
     }
 
     void run()
@@ -77,7 +72,7 @@ class Comparison
     json compare(const scene::Shot& shot)
     {
         const stage::TruthError result = stage::measure_truth_error(
-            renderer_, stage_, shot, options_.reference.levels, until_, progress_, notes_);
+            renderer_, stage_, shot, options_.reference.levels, options_.reference.until, progress_, notes_);
         const reference::Truth& traced = result.traced;
         json record{{"day", shot.day},
                     {"samples", traced.picture.samples()},
@@ -101,13 +96,22 @@ class Comparison
         record["flip"] = {
             {"mean_on_head", cv::countNonZero(result.shown) ? cv::mean(flip, result.shown)[0] : 0.},
             {"pixels_per_degree", base::usual_pixels_per_degree}};
-        write_maps(shot.name, {picture, truth_picture}, result.errors, flip, result.shown,
-                   regions_picture(result.regions, picture));
-        rows_.push_back({{picture, truth_picture},
+        cv::Mat1f lightness;
+        cv::extractChannel(result.errors.lab, lightness, 0);
+        const cv::Mat3b difference_map = color_mapped(result.errors.de, top_de, result.shown),
+                        lightness_map = signed_color_mapped(lightness, top_de, result.shown);
+        const auto put = [&](const char* what, const cv::Mat3b& map) {
+            base::write_png(options_.out / fmt::format("{}_{}.png", shot.name, what), map);
+        };
+        put("ours", picture);
+        put("reference", truth_picture);
+        put("difference", difference_map);
+        put("lightness", lightness_map);
+        put("flip", color_mapped(flip, 1, cv::Mat1b(flip.size(), uchar(255))));
+        put("regions", regions_picture(result.regions, picture));
+        rows_.push_back({{picture, truth_picture, difference_map, lightness_map},
                          fmt::format("day {:g}{}   mean dE2000: {}; noise of the truth {:.2f}", shot.day,
                                      shot.view.empty() ? "" : " " + shot.view, label, traced.noise_de)});
-        errors_.push_back(result.errors);
-        shown_.push_back(result.shown);
         return record;
     }
 
@@ -122,49 +126,23 @@ class Comparison
                 }
     }
 
-    void write_maps(const std::string& name, const std::array<cv::Mat3b, 2>& pictures,
-                    const stage::PixelErrors& errors, const cv::Mat1f& flip, const cv::Mat1b& shown,
-                    const cv::Mat3b& regions) const
-    {
-        cv::Mat1f lightness;
-        cv::extractChannel(errors.lab, lightness, 0);
-        const auto put = [&](const char* what, const cv::Mat3b& picture) {
-            base::write_png(options_.out / fmt::format("{}_{}.png", name, what), picture);
-        };
-        put("ours", pictures[0]);
-        put("reference", pictures[1]);
-        put("difference", color_mapped(errors.de, 10, shown));
-        put("lightness", signed_color_mapped(lightness, 10, shown));
-        put("flip", color_mapped(flip, 1, cv::Mat1b(flip.size(), uchar(255))));
-        put("regions", regions);
-    }
-
     void write(const json& days)
     {
-        double top = 0;
         json regions;
         for (std::size_t i = 0; i < pooled_.size(); ++i) {
             const cv::Mat1b all(pooled_[i].de.size(), uchar(255));
             const stage::RegionError error =
                 pooled_[i].de.empty() ? stage::RegionError{} : stage::error_in(all, pooled_[i]);
             regions[std::string(reference::region_names[i])] = json_of(error);
-            top = std::max(top, error.p999);
             if (error.pixels > 0)
                 fmt::print("{:13} mean {:5.2f}  95 % below {:5.2f}  99.9 % below {:5.2f}  at most {:5.2f}  "
                            "L* {:+.2f} a* {:+.2f} b* {:+.2f}  noise {:.2f}\n",
                            reference::region_names[i], error.mean, error.p95, error.p999, error.max, error.l,
                            error.a, error.b, error.noise);
         }
-        top = std::min(10.0, base::round_up(std::max(top, .1)));
-        for (std::size_t i = 0; i < rows_.size(); ++i) {
-            cv::Mat1f lightness;
-            cv::extractChannel(errors_[i].lab, lightness, 0);
-            rows_[i].cells.push_back(color_mapped(errors_[i].de, top, shown_[i]));
-            rows_[i].cells.push_back(signed_color_mapped(lightness, 10, shown_[i]));
-        }
         base::write_png(
             options_.out / "compare.png",
-            draw_page({"ours", "reference", "difference, dE2000", "L*: blue -10, red +10"}, rows_, top));
+            draw_page({"ours", "reference", "difference, dE2000", "L*: blue -10, red +10"}, rows_, top_de));
         stage::fail_on_validation(renderer_.device);
         base::write_json(options_.out / "compare.json", {{"device", renderer_.device.info().name},
                                                          {"scene", scene::to_json(stage_.scene())},
@@ -176,14 +154,11 @@ class Comparison
     }
 
     const CompareOptions& options_;
-    reference::Until until_;
     stage::Renderer renderer_;
     stage::Stage stage_;
     base::Progress progress_;
     std::vector<std::string> notes_;
     std::vector<PageRow> rows_;
-    std::vector<stage::PixelErrors> errors_; // of the rows
-    std::vector<cv::Mat1b> shown_;
     std::array<stage::PixelErrors, reference::region_names.size()> pooled_; // a column per region
 };
 
@@ -191,18 +166,15 @@ class Comparison
 
 void add_reference_options(CLI::App& command, ReferenceOptions& options)
 {
-    command.add_flag("--reference", options.wanted,
-                     "Compare with the scene's path-traced truth instead of with another scene");
-    command
-        .add_option("--noise", options.until.noise_de,
-                    "With --reference: mean CIEDE2000 by which two such truths would differ; 0.5 without it")
-        ->check(base::number_from(0.01, 100))
-        ->type_name("DE");
-    command
-        .add_option("--samples", options.until.samples, "With --reference: samples per pixel of the truth")
-        ->transform(base::whole_number_from(8, 1'000'000))
-        ->type_name("N");
+    CLI::Option* wanted =
+        command.add_flag("--reference", options.wanted,
+                         "Compare with the scene's path-traced truth instead of with another scene");
+    const std::size_t before = command.get_options().size();
+    reference::add_until_options(command, options.until);
     reference::add_level_options(command, options.levels);
+    const std::vector<CLI::Option*> all = command.get_options([](CLI::Option*) { return true; });
+    for (std::size_t i = before; i < all.size(); ++i)
+        all[i]->needs(wanted)->group("With --reference");
 }
 
 void compare_with_reference(const CompareOptions& options)

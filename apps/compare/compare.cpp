@@ -168,7 +168,7 @@ ColorDifference color_difference(const cv::Mat4b& a, const cv::Mat4b& b)
 {
     CV_Assert(a.size() == b.size());
     ColorDifference result{cv::Mat1f(a.size(), 0.f), cv::Mat1b(a.size(), uchar(0))};
-    std::vector<float> values;
+    std::vector<double> values;
     for (int y = 0; y < a.rows; ++y)
         for (int x = 0; x < a.cols; ++x) {
             const cv::Vec4b &p = a(y, x), &q = b(y, x);
@@ -181,19 +181,15 @@ ColorDifference color_difference(const cv::Mat4b& a, const cv::Mat4b& b)
             result.map(y, x) = float(difference);
             result.head(y, x) = 255;
             result.mean += difference;
-            values.push_back(float(difference));
+            values.push_back(difference);
         }
     result.pixels = int(values.size());
     if (values.empty())
         return result;
     result.mean /= double(values.size());
-    std::ranges::sort(values);
-    const auto percentile = [&](double share) {
-        return values[std::size_t(share * double(values.size() - 1))];
-    };
-    result.percentile_95 = percentile(.95);
-    result.percentile_99_9 = percentile(.999);
-    result.max = values.back();
+    result.percentile_95 = base::quantile(values, .95);
+    result.percentile_99_9 = base::quantile(values, .999);
+    result.max = *std::ranges::max_element(values);
     return result;
 }
 

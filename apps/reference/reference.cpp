@@ -33,13 +33,11 @@ std::string summary(const reference::Truth& truth, const std::filesystem::path& 
                        truth.cpu_seconds, out.string());
 }
 
-void run(CommandOptions& options)
+void run(const CommandOptions& options)
 {
     const scene::Scene scene = scene::chosen_scene(options);
     if (!options.view.empty())
         scene::view_names(scene, {options.view});
-    if (!options.until.samples && !options.until.noise_de && !options.until.seconds)
-        options.until.noise_de = 0.5;
     base::make_folder(options.out);
     base::Progress progress;
     progress.show("loading");
@@ -67,22 +65,13 @@ void run(CommandOptions& options)
 
 void add_quality_options(CLI::App& command, CommandOptions& options)
 {
-    command.add_option("--samples", options.until.samples, "Stop at so many samples per pixel")
-        ->transform(base::whole_number_from(8, 1'000'000))
-        ->type_name("N");
-    command
-        .add_option(
-            "--noise", options.until.noise_de,
-            "Stop when two such pictures would differ by this mean CIEDE2000; .5 when nothing is said")
-        ->check(base::number_from(0.01, 100))
-        ->type_name("DE");
-    command.add_option("--seconds", options.until.seconds, "Stop after this time")
-        ->check(base::number_from(1, 1e7))
-        ->type_name("S");
+    reference::add_until_options(command, options.until);
     command.add_option("--random-seed", options.seed, "Another seed is another picture of the same truth")
         ->transform(base::whole_number_from(0, 4294967295))
         ->capture_default_str();
-    command.add_option("--threads", options.tracing.threads, "0: one per core. The picture is the same")
+    command
+        .add_option("--threads", options.tracing.threads,
+                    "Of the tracing; 0: one per core. The picture is the same")
         ->transform(base::whole_number_from(0, 1024))
         ->capture_default_str();
     command.add_flag_callback(

@@ -35,7 +35,7 @@ vec2 shadow_slope(Shadow shadow, vec3 position, vec3 normal, vec3 to_light)
 
 // Share of the light that reaches the point, 0..1: a 3 x 3 box of bilinear comparisons, i.e. 4 x 4 texels
 // weighted (1-f, 1, 1, f) along each axis, fetched by four gathers. `depth` needs a nearest, clamping
-// sampler. Points outside the shadow map are lit. slope: shadow_slope().
+// sampler. Points outside the image are lit; inside it lie only points of the head, each in its light's tile. slope: shadow_slope().
 float shadow_visibility(sampler2D depth, vec4 place, vec2 slope)
 {
     vec3 seen = place.xyz / place.w;

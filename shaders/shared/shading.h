@@ -45,7 +45,7 @@ struct Light
 
 struct Lighting
 {
-    uint count; // lights in use; light[0] is the key light, which casts the shadow
+    uint count; // lights in use
     Light light[MAX_LIGHTS];
 };
 

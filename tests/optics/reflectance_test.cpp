@@ -263,3 +263,14 @@ TEST(TissueFile, ChromophoresMakeASpectrum)
     EXPECT_THROW(parse(R"({"blood":1.5})"), base::InputError);
     EXPECT_THROW(parse(R"({"wine":1})"), base::InputError);
 }
+
+TEST(HenyeyGreenstein, HasItsAnisotropyAsMeanCosine)
+{
+    for (const double g : {-.9, -.3, 0.0, .5, .8, .95}) {
+        double sum = 0;
+        constexpr int count = 20'000;
+        for (int i = 0; i < count; ++i)
+            sum += optics::henyey_greenstein_cosine(g, (i + .5) / count);
+        EXPECT_NEAR(sum / count, g, 1e-3);
+    }
+}

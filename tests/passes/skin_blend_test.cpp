@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "head/albedo_under.hpp"
+#include "head/vectors.hpp"
 #include "passes/frame.hpp"
 #include "tests/support/gpu.hpp"
 #include "wound/drawn_region.hpp"
@@ -21,11 +22,6 @@ constexpr double last_day = 60;
 constexpr std::uint32_t side = 128;             // pixels of the picture
 constexpr double distance_m = 1;                // of the camera from the wall
 const base::Color own_albedo(.55f, .36f, .27f); // of the wall
-
-cv::Vec3d to_cv(const glm::dvec3& v)
-{
-    return {v.x, v.y, v.z};
-}
 
 const cv::Vec3b normal_code(150, 118, 250); // of every texel of the normal map
 
@@ -116,8 +112,8 @@ class Scene
                          down = in_patch(x, y + 1) - here;
         return {.at = {here.x, here.y},
                 .facing = head::share_received(anchor_.normal.z, here.z),
-                .right = to_cv(anchor_.right),
-                .down = to_cv(anchor_.down),
+                .right = head::to_cv(anchor_.right),
+                .down = head::to_cv(anchor_.down),
                 .geometric = {0, 0, 1},
                 .footprint = {.25 * (across.x + down.x), .25 * (across.y + down.y)}};
     }
@@ -250,7 +246,7 @@ TEST_F(SkinBlendOnGpu, DiffuseLightAndHighlightEqualThoseOfTheCpu)
                 const Difference found = compare(scene.draw(today, shading, {light}), [&](int x, int y) {
                     const wound::SkinPoint skin =
                         wound::with_wound({own_albedo, mapped}, look, scene.place(x, y), shading.blend_model);
-                    return lit_radiance(skin, shading, light, to_cv(scene.position(x, y)));
+                    return lit_radiance(skin, shading, light, head::to_cv(scene.position(x, y)));
                 });
                 const std::string where = fmt::format("model {}, day {}, {}", int(model), day,
                                                       highlight ? "highlight" : "diffuse light");

@@ -168,15 +168,4 @@ TEST(AlbedoTable, AgreesWithAnOutsideFit)
     EXPECT_NEAR(table.diffuse_of(.6920), .25, .01);
 }
 
-TEST(HenyeyGreenstein, HasItsAnisotropyAsMeanCosine)
-{
-    for (const double g : {-.9, -.3, 0.0, .5, .8, .95}) {
-        double sum = 0;
-        constexpr int count = 20'000;
-        for (int i = 0; i < count; ++i)
-            sum += reference::henyey_greenstein_cosine(g, (i + .5) / count);
-        EXPECT_NEAR(sum / count, g, 1e-3);
-    }
-}
-
 } // namespace

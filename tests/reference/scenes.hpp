@@ -2,7 +2,7 @@
 #pragma once
 #include <numbers>
 
-#include "reference/path_tracer.hpp"
+#include "reference/traceable.hpp"
 #include "scene/loaded_scene.hpp"
 
 namespace scenes {
@@ -71,18 +71,13 @@ inline scene::LoadedScene scene_of(head::Model model, double rho_d = 1)
     return loaded;
 }
 
-/// A tracer with all that it refers to.
+/// A scene's tracer.
 struct Tracer
 {
-    reference::AlbedoTable table;
-    reference::DayWounds wounds;
-    reference::Surfaces surfaces;
-    reference::PathTracer tracer;
+    reference::Traceable scene;
 
-    Tracer(const scene::LoadedScene& scene, const reference::Levels& levels, double day = 0)
-        : table(levels.medium.anisotropy, levels.medium.index),
-          wounds(scene, day, table, levels.medium, levels.subsurface), surfaces(scene, wounds),
-          tracer(scene, surfaces, wounds, levels)
+    Tracer(const scene::LoadedScene& of, const reference::Levels& levels, double day = 0)
+        : scene(of, levels, day)
     {
     }
 
@@ -97,7 +92,7 @@ struct Tracer
         double squares = 0;
         for (int i = 0; i < samples; ++i) {
             reference::Random random(5, 0, std::uint64_t(i));
-            const reference::Radiance one = tracer.along(origin, direction, random);
+            const reference::Radiance one = scene.tracer.along(origin, direction, random);
             const base::Color light = one.diffuse + one.specular;
             mean.light += light / samples;
             mean.alpha += one.alpha / samples;

@@ -36,6 +36,7 @@ TEST(ReducedTissue, OfTheWalksOwnMediumIsThatMedium)
         EXPECT_NEAR(reduced.mean_free_path_mm[c], path_mm, .04 * path_mm);
         EXPECT_NEAR(reduced.diffuse_mean_free_path_mm[c], path_mm / std::sqrt(3 * .1),
                     .05 * path_mm / std::sqrt(.3));
+        EXPECT_NEAR(reduced.scattering_per_m[c], 1e3 * .9 / path_mm, .06 * 1e3 * .9 / path_mm);
         EXPECT_LT(reduced.worst_edge[c], .006);
     }
 }
@@ -55,12 +56,12 @@ TEST(ReducedTissue, OfTable1HasItsEdgeResponse)
 TEST(ReducedTissue, ScattersTheSameWhateverItAbsorbs)
 {
     const AlbedoTable table(0, 1);
-    const ReducedTissue tissue{.albedo = {.5, .4, .3}, .mean_free_path_mm = {1, .5, .25}};
-    const reference::Medium own = tissue.with_albedo(tissue.albedo, table, {}),
-                            paler = tissue.with_albedo({.8, .8, .8}, table, {}),
-                            black = tissue.with_albedo({0, 0, 0}, table, {});
+    const base::Color scattering{900, 1500, 2500}, single = table.single_of({.5, .4, .3});
+    const reference::Medium own = reference::medium_of(scattering, single, {}),
+                            paler = reference::medium_of(scattering, table.single_of({.8, .8, .8}), {}),
+                            black = reference::medium_of(scattering, table.single_of({0, 0, 0}), {});
     for (int c = 0; c < 3; ++c) {
-        EXPECT_NEAR(own.extinction[c], 1e3 / tissue.mean_free_path_mm[c], 1e-6);
+        EXPECT_NEAR(own.extinction[c], scattering[c] / single[c], 1e-6);
         EXPECT_NEAR(paler.extinction[c] * paler.single_albedo[c], own.extinction[c] * own.single_albedo[c],
                     1e-6);
         EXPECT_EQ(black.single_albedo[c], 0);

@@ -77,7 +77,7 @@ TEST_F(Truths, GoOnWhereTheyEnded)
     find(scene, request(), {.samples = 8});
     EXPECT_TRUE(same(find(scene, request(), {.samples = 20}), whole));
     // What is there is taken, more than was asked for, too; nothing is traced.
-    const Truth kept = find(scene, request(), {.samples = 8}, {.only_cached = true});
+    const Truth kept = find(scene, request(), {.samples = 8});
     EXPECT_TRUE(same(kept, whole));
     EXPECT_GT(kept.cpu_seconds, 0);
     ASSERT_TRUE(kept.skin);
@@ -144,7 +144,7 @@ TEST_F(Truths, AreAsNoisyAsTheySay)
     double sum = 0, pixels = 0;
     const cv::Mat4f one = a.picture.radiance(), other = b.picture.radiance();
     const auto lab = [](const cv::Vec4f& seen, double height) {
-        return base::lab_from_linear(base::on_backdrop({seen[0], seen[1], seen[2]}, seen[3], 0, height));
+        return base::shown_lab({seen[0], seen[1], seen[2]}, seen[3], 0, height);
     };
     for (int y = 0; y < one.rows; ++y)
         for (int x = 0; x < one.cols; ++x)

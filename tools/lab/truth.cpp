@@ -71,6 +71,7 @@ class Table
         scene.days = {0, 5, 12, 40};
         if (light.light)
             scene.lights = {*light.light};
+        progress_.expect(scene.days.size());
         const stage::Stage stage(renderer_.device, stage::Stage::prepare(scene));
         std::string text;
         std::vector<std::string> notes;
@@ -99,7 +100,6 @@ void write_tables(const std::filesystem::path& document, double noise, std::uint
         "| light | tissue | day | skin | wound | ring, scar | shadow edges | thin parts |\n"
         "|---|---|---|---|---|---|---|---|\n";
     Table table(noise, side);
-    table.progress().expect(72);
     const std::string with = header + table.rows({}),
                       without = header + table.rows(bare_head(base::cache_folder() / "lab"));
     table.progress().clear();

@@ -69,4 +69,12 @@ double backward_fraction(double g)
     return (1 - g) / (q * (1 + g + q));
 }
 
+double henyey_greenstein_cosine(double g, double u)
+{
+    if (std::abs(g) < 1e-6) // isotropic within rounding
+        return 2 * u - 1;
+    const double q = (1 - g * g) / (1 - g + 2 * g * u);
+    return std::clamp((1 + g * g - q * q) / (2 * g), -1.0, 1.0);
+}
+
 } // namespace optics

@@ -19,4 +19,8 @@ double diffuse_fresnel_polynomial(double n_from, double n_to);
 /// [-1, 1].
 double backward_fraction(double g);
 
+/// Cosine of the deflection by the same phase function (Henyey & Greenstein 1941); `u` in 0..1, g within
+/// +-.99.
+double henyey_greenstein_cosine(double g, double u);
+
 } // namespace optics

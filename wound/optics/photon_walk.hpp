@@ -146,13 +146,7 @@ class PhotonWalk
             constexpr double chance = 0.1;
             photon_.weight = random() < chance ? photon_.weight / chance : 0;
         }
-        // Cosine of the deflection after Henyey & Greenstein; isotropic within rounding for small g.
-        const double xi = random(), g = medium.g;
-        double deflection = 2 * xi - 1;
-        if (std::abs(g) > 1e-6) {
-            const double q = (1 - g * g) / (1 - g + 2 * g * xi);
-            deflection = (1 + g * g - q * q) / (2 * g);
-        }
+        const double deflection = henyey_greenstein_cosine(medium.g, random());
         const double phi = 2 * std::numbers::pi * random(), azimuth = std::cos(phi);
         const double c = photon_.cosine;
         const double turned =
