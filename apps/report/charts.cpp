@@ -15,10 +15,10 @@ namespace palette = base::palette;
 
 constexpr double width = 960, row_height = 26; // px
 
-/// Renders the chart as SVG for the page; rows are `spacing` times the usual height.
-std::string page_svg(const base::Chart& chart, double spacing = 1)
+/// Renders the chart as SVG for the page.
+std::string page_svg(const base::Chart& chart)
 {
-    const double plot = spacing * row_height * double(chart.y.rows.size());
+    const double plot = row_height * double(chart.y.rows.size());
     return base::chart_svg(chart, {width, base::chart_height(chart, width, plot)}, base::SvgUse::InPage);
 }
 
