@@ -59,13 +59,13 @@ json to_json(const Sweep& sweep)
     return {{"kind", sweep.kind}, {"x_label", sweep.x_label}, {"fixed", sweep.fixed}, {"series", list}};
 }
 
-base::Chart sweep_chart(const Sweep& sweep, const gpu::DeviceInfo& device)
+base::Chart sweep_chart(const Sweep& sweep, const std::string& device)
 {
     base::Chart chart{.title = fmt::format("ms against {}", sweep.x_label),
                       .x = {.title = sweep.x_label, .logarithmic = true},
                       .y = {.title = "median, p5 to p95", .unit = "ms", .logarithmic = true},
                       .legend_place = base::LegendPlace::Right,
-                      .footnote = device.name + (device.software ? ", a software rasteriser" : "")};
+                      .footnote = device};
     for (const SweepSeries& series : sweep.series) {
         const base::Paint paint = base::series_paint(chart.series.size() / 2);
         base::Series medians{
