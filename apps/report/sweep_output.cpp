@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 #include <set>
 
+#include "apps/report/charts.hpp"
 #include "apps/report/json.hpp"
 #include "apps/report/sweep.hpp"
 
 namespace report_command {
 namespace {
 using nlohmann::json;
-
-constexpr double least_ms = 1e-4; // smaller times are drawn here: zero has no logarithm
 
 std::string law_text(const std::optional<base::PowerLaw>& law, const std::string& x)
 {
@@ -73,7 +72,7 @@ base::Chart sweep_chart(const Sweep& sweep, const std::string& device)
         base::Series law{.paint = paint, .line_width = 1};
         for (std::size_t i = 0; i < series.x.size(); ++i) {
             medians.points.emplace_back(series.x[i], series.ms[i].median);
-            medians.y_spread.push_back({std::max(series.ms[i].p5, least_ms), series.ms[i].p95});
+            medians.y_spread.push_back({std::max(series.ms[i].p5, least_drawn_ms), series.ms[i].p95});
             if (series.law && series.x[i] > 0)
                 law.points.emplace_back(series.x[i], series.law->at(series.x[i]));
         }
