@@ -16,7 +16,6 @@ constexpr double least_plot = 16;        // px
 constexpr double x_gap = 44, y_gap = 20; // px, between the labels of neighbouring ticks
 constexpr double column_gap = 20;        // px, of the legend
 constexpr double data_margin = .05;      // of the range, on either side of the data
-const TextStyle tick_style{palette::faint, text_height};
 
 /// Truncates `text` with "..." when it is wider than `width` pixels.
 std::string fitted(std::string text, double width, double height = text_height)
@@ -233,7 +232,7 @@ void place_labels(ChartLayout& layout, const Chart& chart, const cv::Rect2d& are
                                  {layout.plot.x + layout.plot.width / 2, base_line += line_height},
                                  {palette::ink, text_height, Anchor::Middle}});
     for (const std::string& line : margins.footnote)
-        layout.labels.push_back({line, {left, base_line += line_height}, tick_style});
+        layout.labels.push_back({line, {left, base_line += line_height}, {palette::faint, text_height}});
 }
 
 } // namespace

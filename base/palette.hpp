@@ -22,6 +22,10 @@ constexpr Paint paint(std::uint32_t rgb)
 {
     return {rgb, rgb};
 }
+inline Paint paint(const cv::Vec3b& rgb)
+{
+    return paint(std::uint32_t{rgb[0]} << 16 | std::uint32_t{rgb[1]} << 8 | rgb[2]);
+}
 
 namespace palette {
 inline constexpr Paint white = paint(0xffffff); // the background of charts

@@ -22,12 +22,6 @@ cv::Mat3b encoded(const cv::Mat3f& linear)
     return result;
 }
 
-base::Paint swatch(const base::Color& color)
-{
-    const cv::Vec3b rgb = base::srgb8_from_linear(color);
-    return base::paint(std::uint32_t{rgb[0]} << 16 | std::uint32_t{rgb[1]} << 8 | rgb[2]);
-}
-
 cv::Mat3b blank(int height, int width)
 {
     // Parentheses: braces would select the initializer-list constructor.
@@ -124,7 +118,7 @@ cv::Mat3b draw_strip(const std::string& title, const std::vector<double>& days,
             canvas.rect(place, {base::palette::grid}); // a frame makes white swatches visible
             const cv::Rect inner(place.x + 1, place.y + 1, width - 2, height - 2);
             const auto& color = rows[r].colors[i];
-            canvas.rect(inner, {color ? swatch(*color) : base::palette::white});
+            canvas.rect(inner, {color ? base::paint(base::srgb8_from_linear(*color)) : base::palette::white});
             if (!color)
                 base::draw_text(picture, "closed", {x[i] + width / 2, y + height / 2 + 4}, centered);
         }

@@ -15,10 +15,10 @@ namespace palette = base::palette;
 
 constexpr double width = 960, row_height = 26; // px
 
-/// Renders the chart as SVG for the page; rows are `spacing` times the usual height.
-std::string page_svg(const base::Chart& chart, double spacing = 1)
+/// Renders the chart as SVG for the page.
+std::string page_svg(const base::Chart& chart)
 {
-    const double plot = spacing * row_height * double(chart.y.rows.size());
+    const double plot = row_height * double(chart.y.rows.size());
     return base::chart_svg(chart, {width, base::chart_height(chart, width, plot)}, base::SvgUse::InPage);
 }
 
@@ -77,7 +77,6 @@ std::string stacked_bars(const std::vector<CaseSummary>& summaries, const PassCo
 std::string distributions(const CaseSummary& summary, const stage::Measurement& measurement,
                           const PassColors& colors)
 {
-    constexpr double least_ms = 1e-4; // smaller times are drawn here: zero has no logarithm
     base::Chart chart{.description = "Every frame's time of each pass",
                       .x = {.title = "all frames, median, p5 to p95", .unit = "ms", .logarithmic = true}};
     const auto add = [&](const std::string& name, const std::vector<double>& times, base::Paint paint) {
@@ -85,13 +84,13 @@ std::string distributions(const CaseSummary& summary, const stage::Measurement& 
         chart.y.rows.push_back(name);
         base::Series frames{.paint = paint, .radius = 2.2, .opacity = .55};
         for (const double ms : times) // vertical offsets keep equal times visible
-            frames.points.emplace_back(std::max(ms, least_ms),
+            frames.points.emplace_back(std::max(ms, least_drawn_ms),
                                        row + .25 * std::sin(double(frames.points.size()) * 2.399));
         chart.series.push_back(std::move(frames));
         const base::Spread spread = base::spread_of(times).value();
-        const double median = std::max(spread.median, least_ms);
+        const double median = std::max(spread.median, least_drawn_ms);
         chart.series.push_back(
-            {.points = {{median, row}}, .x_spread = {{std::max(spread.p5, least_ms), spread.p95}}});
+            {.points = {{median, row}}, .x_spread = {{std::max(spread.p5, least_drawn_ms), spread.p95}}});
         chart.series.push_back({.points = {{median, row - .3}, {median, row + .3}}, .line_width = 2.4});
     };
     add("frame", stage::wall_ms(measurement), palette::rest);

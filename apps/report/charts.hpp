@@ -9,6 +9,8 @@
 
 namespace report_command {
 
+inline constexpr double least_drawn_ms = 1e-4; // smaller times are drawn here: zero has no logarithm
+
 /// Assigns each pass one colour for all charts of a report.
 class PassColors
 {

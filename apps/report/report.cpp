@@ -140,7 +140,7 @@ void sweep(const ReportOptions& options, const scene::Scene& scene, const gpu::D
         const Sweep measured =
             measure_sweep(kind, scene, device, library, rounds, rounds_of(progress, kind, rounds));
         progress.clear();
-        const base::Chart chart = sweep_chart(measured, device.info());
+        const base::Chart chart = sweep_chart(measured, device_title(device.info()));
         base::write_png(options.out / fmt::format("sweep_{}.png", kind),
                         base::chart_picture(chart, sweep_size));
         base::write_text(options.out / fmt::format("sweep_{}.svg", kind),

@@ -40,7 +40,7 @@ Sweep measure_sweep(const std::string& kind, const scene::Scene& scene, const gp
 
 std::string to_text(const Sweep& sweep);
 nlohmann::json to_json(const Sweep& sweep);
-/// Time against x, both axes logarithmic.
-base::Chart sweep_chart(const Sweep& sweep, const gpu::DeviceInfo& device);
+/// Time against x, both axes logarithmic; `device` is the footnote.
+base::Chart sweep_chart(const Sweep& sweep, const std::string& device);
 
 } // namespace report_command

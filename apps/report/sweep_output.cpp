@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 #include <set>
 
+#include "apps/report/charts.hpp"
 #include "apps/report/json.hpp"
 #include "apps/report/sweep.hpp"
 
 namespace report_command {
 namespace {
 using nlohmann::json;
-
-constexpr double least_ms = 1e-4; // smaller times are drawn here: zero has no logarithm
 
 std::string law_text(const std::optional<base::PowerLaw>& law, const std::string& x)
 {
@@ -59,13 +58,13 @@ json to_json(const Sweep& sweep)
     return {{"kind", sweep.kind}, {"x_label", sweep.x_label}, {"fixed", sweep.fixed}, {"series", list}};
 }
 
-base::Chart sweep_chart(const Sweep& sweep, const gpu::DeviceInfo& device)
+base::Chart sweep_chart(const Sweep& sweep, const std::string& device)
 {
     base::Chart chart{.title = fmt::format("ms against {}", sweep.x_label),
                       .x = {.title = sweep.x_label, .logarithmic = true},
                       .y = {.title = "median, p5 to p95", .unit = "ms", .logarithmic = true},
                       .legend_place = base::LegendPlace::Right,
-                      .footnote = device.name + (device.software ? ", a software rasteriser" : "")};
+                      .footnote = device};
     for (const SweepSeries& series : sweep.series) {
         const base::Paint paint = base::series_paint(chart.series.size() / 2);
         base::Series medians{
@@ -73,7 +72,7 @@ base::Chart sweep_chart(const Sweep& sweep, const gpu::DeviceInfo& device)
         base::Series law{.paint = paint, .line_width = 1};
         for (std::size_t i = 0; i < series.x.size(); ++i) {
             medians.points.emplace_back(series.x[i], series.ms[i].median);
-            medians.y_spread.push_back({std::max(series.ms[i].p5, least_ms), series.ms[i].p95});
+            medians.y_spread.push_back({std::max(series.ms[i].p5, least_drawn_ms), series.ms[i].p95});
             if (series.law && series.x[i] > 0)
                 law.points.emplace_back(series.x[i], series.law->at(series.x[i]));
         }

@@ -147,16 +147,15 @@ base::Chart profile_chart(const wound::PreparedWound& wound, const wound::Healin
                             .low = -1.1 * deepest - .1,
                             .high = -lowest + .3}};
     const double closed = std::min(wound::closure_day(healing.curve), 365.);
-    for (std::uint32_t k = 0; k < 5; ++k) {
+    for (int k = 0; k < 5; ++k) {
         const double day = closed * k / 4;
         const wound::HealingState state = wound::healing_at(healing, day);
         const cv::Mat1f today =
             wound::warp_image(wound.patch.depth_mm, wound::make_warp(wound.flow, state.unhealed_ratio));
         const std::vector<double> profile = wound::depth_profile(today, wound.centroid);
-        const std::uint32_t red = 200 - 40 * k, green = 40 + 30 * k, blue = 40 + 45 * k;
-        base::Series line{.legend = fmt::format("day {:.0f}", day),
-                          .paint = base::paint(red << 16 | green << 8 | blue),
-                          .line_width = 2};
+        const cv::Vec3b color(uchar(200 - 40 * k), uchar(40 + 30 * k), uchar(40 + 45 * k));
+        base::Series line{
+            .legend = fmt::format("day {:.0f}", day), .paint = base::paint(color), .line_width = 2};
         for (std::size_t i = 0; i < profile.size(); ++i) {
             const double share = (static_cast<double>(i) + .5) / static_cast<double>(profile.size());
             line.points.emplace_back((share * 2 - 1) * half, -profile[i] * state.depth_scale);

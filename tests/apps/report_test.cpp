@@ -352,7 +352,7 @@ TEST_F(Report, SweepsEveryKind)
         }
         EXPECT_THAT(report_command::to_text(sweep), testing::AllOf(HasSubstr("x^("), HasSubstr("fixed: ")));
         EXPECT_EQ(report_command::to_json(sweep).at("series").size(), sweep.series.size());
-        const base::Chart chart = report_command::sweep_chart(sweep, gpu_test::device().info());
+        const base::Chart chart = report_command::sweep_chart(sweep, gpu_test::device().info().name);
         EXPECT_TRUE(chart.x.logarithmic && chart.y.logarithmic);
         const cv::Mat3b picture = base::chart_picture(chart, {800, 400});
         int colored = 0;

@@ -1,10 +1,9 @@
-// The chart writer: ticks, layout, the SVG canvas and the pixel canvas.
+// Charts: what is drawn, and where.
 #include "base/chart.hpp"
 
 #include <gmock/gmock.h>
 #include <limits>
 #include <random>
-#include <regex>
 
 #include "base/chart_layout.hpp"
 #include "base/label_placement.hpp"
@@ -12,8 +11,6 @@
 namespace {
 
 using base::Chart;
-using base::Scale;
-using base::Tick;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -90,99 +87,6 @@ bool inside(const cv::Rect2d& outer, const cv::Point2d& p)
     return inside(outer, {p.x, p.y, 0, 0});
 }
 
-double label_extent(const std::string& label)
-{
-    return base::text_width(label, 9);
-}
-
-/// Whether `value` is 1, 2 or 5 times a power of ten.
-bool is_round(double value)
-{
-    const double mantissa = value / std::pow(10, std::floor(std::log10(value) + 1e-9));
-    return std::abs(mantissa - 1) < 1e-6 || std::abs(mantissa - 2) < 1e-6 || std::abs(mantissa - 5) < 1e-6;
-}
-
-void expect_inside_and_apart(const std::vector<Tick>& ticks, const Scale& scale, double gap)
-{
-    const double slack = 1e-6 * (scale.high - scale.low);
-    for (std::size_t i = 0; i < ticks.size(); ++i) {
-        EXPECT_GE(ticks[i].value, scale.low - slack);
-        EXPECT_LE(ticks[i].value, scale.high + slack);
-        EXPECT_NEAR(std::stod(ticks[i].label), ticks[i].value, 1e-6 * (scale.high - scale.low));
-        if (i > 0) {
-            EXPECT_GE(std::abs(ticks[i].at - ticks[i - 1].at),
-                      (label_extent(ticks[i].label) + label_extent(ticks[i - 1].label)) / 2 + gap);
-        }
-    }
-}
-
-// ---- Ticks
-
-TEST(Chart, TicksAreRoundAndInsideTheRange)
-{
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> exponent(-6, 9), share(-1, 1);
-    for (int i = 0; i < 2000; ++i) {
-        const double size = std::pow(10, exponent(random)), low = size * share(random);
-        const Scale scale{low, low + size * (1.1 + share(random)), false, 0, 700};
-        const std::vector<Tick> ticks = base::round_ticks(scale, label_extent, 40);
-        SCOPED_TRACE(testing::Message() << scale.low << " to " << scale.high);
-        ASSERT_GE(ticks.size(), 2u);
-        const double step = ticks[1].value - ticks[0].value;
-        EXPECT_TRUE(is_round(step)) << step;
-        for (const Tick& tick : ticks)
-            EXPECT_NEAR(std::remainder(tick.value, step), 0, 1e-6 * step);
-        expect_inside_and_apart(ticks, scale, 40);
-    }
-}
-
-TEST(Chart, LogarithmicTicksAreRoundToo)
-{
-    std::mt19937 random(2);
-    std::uniform_real_distribution<double> exponent(-6, 6), decades(1, 12);
-    for (int i = 0; i < 2000; ++i) {
-        const double low = std::pow(10, exponent(random));
-        const Scale scale{low, low * std::pow(10, decades(random)), true, 0, 700};
-        const std::vector<Tick> ticks = base::round_ticks(scale, label_extent, 20);
-        SCOPED_TRACE(testing::Message() << scale.low << " to " << scale.high);
-        ASSERT_GE(ticks.size(), 3u);
-        for (const Tick& tick : ticks)
-            EXPECT_TRUE(is_round(tick.value)) << tick.value;
-        expect_inside_and_apart(ticks, scale, 20);
-    }
-}
-
-TEST(Chart, ALogarithmicAxisOfLessThanADecadeHasTicks)
-{
-    for (const auto& [low, high] : {std::pair(.8, 1.25), {11., 19.}, {210., 480.}, {1.01, 1.02}}) {
-        const Scale scale{low, high, true, 0, 700};
-        const std::vector<Tick> ticks = base::round_ticks(scale, label_extent, 20);
-        EXPECT_GE(ticks.size(), 3u) << low;
-        expect_inside_and_apart(ticks, scale, 20);
-    }
-}
-
-TEST(Chart, LabelsOfTicksAreShort)
-{
-    const auto labels = [](const Scale& scale) {
-        std::vector<std::string> result;
-        for (const Tick& tick : base::round_ticks(scale, label_extent, 60))
-            result.push_back(tick.label);
-        return result;
-    };
-    EXPECT_THAT(labels({-.25, .45, false, 0, 700}),
-                testing::ElementsAre("-0.2", "-0.1", "0", "0.1", "0.2", "0.3", "0.4"));
-    EXPECT_THAT(labels({1e-5, 1e9, true, 0, 500}), testing::IsSupersetOf({"0.001", "1", "1000", "1e9"}));
-}
-
-TEST(Chart, RoundUp)
-{
-    EXPECT_DOUBLE_EQ(base::round_up(.1), .1);
-    EXPECT_DOUBLE_EQ(base::round_up(.11), .2);
-    EXPECT_DOUBLE_EQ(base::round_up(3), 5);
-    EXPECT_DOUBLE_EQ(base::round_up(50.1), 100);
-}
-
 TEST(Chart, ARangeOfNoWidthIsWidened)
 {
     for (const bool logarithmic : {false, true}) {
@@ -195,8 +99,6 @@ TEST(Chart, ARangeOfNoWidthIsWidened)
         EXPECT_NEAR(canvas.centers[0].y, plot.y + plot.height / 2, 1);
     }
 }
-
-// ---- Contents and their positions
 
 TEST(Chart, NothingIsDrawnOutside)
 {
@@ -388,121 +290,6 @@ TEST(Chart, APlotHasTheHeightThatWasAskedFor)
     chart.legend = {{"one"}, {"two"}};
     const double height = base::chart_height(chart, 700, 78);
     EXPECT_NEAR(base::lay_out(chart, {0, 0, 700, height}).plot.height, 78, 1);
-}
-
-// ---- Both canvases
-
-/// The first XML error found; empty when elements are nested properly and attributes are quoted.
-std::string xml_error(const std::string& xml)
-{
-    static const std::regex element(R"(<(/?)([a-z]+)((?: [a-zA-Z-]+="[^"<&]*(?:&[a-z]+;[^"<&]*)*")*)(/?)>)");
-    std::vector<std::string> open;
-    std::size_t end = 0;
-    for (std::sregex_iterator at(xml.begin(), xml.end(), element), last; at != last; ++at) {
-        const std::string between = xml.substr(end, std::size_t(at->position()) - end);
-        if (between.find_first_of("<>") != std::string::npos)
-            return between;
-        if (std::regex_search(between, std::regex("&(?!(amp|lt|gt|quot);)")))
-            return between;
-        end = std::size_t(at->position() + at->length());
-        if ((*at)[1] == "/") {
-            if (open.empty() || open.back() != (*at)[2])
-                return at->str();
-            open.pop_back();
-        } else if ((*at)[4] != "/")
-            open.push_back((*at)[2]);
-        if (open.empty() && end < xml.find_last_not_of('\n'))
-            return "more than one element";
-    }
-    return open.empty() && end + 1 == xml.size() ? "" : "unfinished";
-}
-
-Chart everything()
-{
-    const std::string wicked = "<b a=\"1\">&'\x01\xff</b>";
-    Chart chart{.title = wicked,
-                .description = wicked,
-                .x = {.title = wicked, .unit = "ms"},
-                .y = {.title = wicked},
-                .references = {{.at = 1, .name = wicked}},
-                .footnote = wicked};
-    chart.series = {{.legend = wicked,
-                     .points = {{0, 0}, {1, 2}, {2, 1}},
-                     .line_width = 1.5,
-                     .path = base::Path::Staircase,
-                     .radius = 4,
-                     .opacity = .5,
-                     .names = {wicked, "b", "c"},
-                     .y_spread = {{-1, 1}, {1, 3}, {0, 2}},
-                     .band = true}};
-    chart.bars = {{.row = .5, .from = 0, .to = 1, .tooltip = wicked, .label = wicked, .opacity = .3}};
-    return chart;
-}
-
-TEST(Chart, SvgIsWellFormed)
-{
-    ASSERT_EQ(xml_error("<a b=\"c\"><d/>&amp;</a>\n"), "");
-    for (const char* broken : {"<a>\n", "<a></b>\n", "<a b=c/>\n", "<a>&</a>\n", "<a><</a>\n", "<a/><a/>\n"})
-        ASSERT_NE(xml_error(broken), "") << broken;
-    const std::string file = base::chart_svg(everything(), {600, 400}, base::SvgUse::StandAlone);
-    const std::string element = base::chart_svg(everything(), {600, 400}, base::SvgUse::InPage);
-    EXPECT_EQ(xml_error(file), "");
-    EXPECT_EQ(xml_error(element), "");
-    EXPECT_THAT(file, testing::AllOf(testing::StartsWith("<svg xmlns="),
-                                     HasSubstr("&lt;b a=&quot;1&quot;&gt;&amp;"), Not(HasSubstr("var("))));
-}
-
-TEST(Chart, ColoursInAPageAreDefinedCssVariables)
-{
-    const std::string element = base::chart_svg(everything(), {600, 400}, base::SvgUse::InPage);
-    const std::string style = base::css_variables();
-    static const std::regex variable(R"(var\((--[a-z0-9]+)\))");
-    std::size_t found = 0;
-    for (std::sregex_iterator at(element.begin(), element.end(), variable), last; at != last; ++at, ++found)
-        EXPECT_THAT(style, HasSubstr((*at)[1].str() + ": #"));
-    EXPECT_GT(found, 10u);
-}
-
-TEST(Chart, PngAndSvgPlaceAPointAtTheSamePixel)
-{
-    for (const bool logarithmic : {false, true})
-        for (const double value : {3.3, 47., 130.}) {
-            const Chart chart{
-                .title = "title",
-                .x = {.title = "x", .low = 1, .high = 200, .logarithmic = logarithmic},
-                .y = {.low = 1, .high = 200, .logarithmic = logarithmic},
-                .series = {{.paint = base::paint(0xff0000), .points = {{value, value}}, .radius = 5}}};
-            const std::string svg = base::chart_svg(chart, {400, 300}, base::SvgUse::StandAlone);
-            std::smatch circle;
-            ASSERT_TRUE(std::regex_search(svg, circle, std::regex("cx=\"([0-9.]+)\" cy=\"([0-9.]+)\"")));
-            cv::Point2d sum;
-            double weight = 0;
-            const cv::Mat3b picture = base::chart_picture(chart, {400, 300});
-            for (int y = 0; y < picture.rows; ++y)
-                for (int x = 0; x < picture.cols; ++x) {
-                    const double red = picture(y, x)[0] - picture(y, x)[1];
-                    sum += red * cv::Point2d(x + .5, y + .5);
-                    weight += red;
-                }
-            ASSERT_GT(weight, 255 * 60);
-            EXPECT_NEAR(sum.x / weight, std::stod(circle[1]), .1);
-            EXPECT_NEAR(sum.y / weight, std::stod(circle[2]), .1);
-        }
-}
-
-TEST(Chart, TransparentPaintIsBlendedWithThePicture)
-{
-    cv::Mat3b picture(40, 40, cv::Vec3b(255, 255, 255));
-    base::PictureCanvas canvas(picture);
-    canvas.rect({10, 10, 20, 20}, {base::paint(0xff0000), .5});
-    EXPECT_EQ(picture(5, 5), cv::Vec3b(255, 255, 255));
-    EXPECT_NEAR(picture(20, 20)[1], 127, 1);
-    EXPECT_EQ(picture(10, 10), picture(29, 29));
-    EXPECT_EQ(picture(9, 9), picture(30, 30));
-    canvas.circle({39, 39}, 8, {base::paint(0), .25}); // half outside
-    EXPECT_NEAR(picture(38, 38)[0], 191, 1);
-    canvas.polygon({{-50, -50}, {90, -50}, {90, 90}, {-50, 90}}, {base::paint(0), 1});
-    EXPECT_EQ(picture(0, 0), cv::Vec3b(0, 0, 0));
 }
 
 TEST(Chart, SegmentsAreClipped)

@@ -4,14 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/ostream.h>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 
 #include "base/chart.hpp"
 #include "base/file.hpp"
 #include "base/image_io.hpp"
-#include "base/input_error.hpp"
 #include "base/progress.hpp"
 #include "base/statistics.hpp"
 #include "tools/lab/reflectance.hpp"

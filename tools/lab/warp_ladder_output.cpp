@@ -1,6 +1,5 @@
 // Measured warp models as tables, CSV and charts.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -124,8 +123,7 @@ std::vector<base::LegendEntry> legend()
 
 void draw_explanation(base::Canvas& canvas, const cv::Rect2d& area)
 {
-    const std::vector<base::LegendEntry> entries = legend();
-    base::draw_legend(canvas, area + cv::Point2d(20, 40), entries);
+    base::draw_legend(canvas, area + cv::Point2d(20, 40), legend());
     double y = area.y + 150;
     for (const std::string& line :
          {std::string("error: largest distance from the"), std::string("composed map, texels of 512 x 512;"),
