@@ -12,7 +12,7 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr optics::WardModel ward_models[] = {optics::WardModel::Published, optics::WardModel::WardDuer,
+constexpr optics::WardModel ward_models[] = {optics::WardModel::Published, optics::WardModel::Duer,
                                              optics::WardModel::Bounded};
 
 cv::Vec3d direction(double theta_deg, double phi_deg)

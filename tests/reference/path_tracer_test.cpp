@@ -186,7 +186,7 @@ TEST(PathTracer, HighlightIsThatOfTheOptics)
     shading.alpha_x = .2;
     const glm::dvec3 eye(-.2, 0, .4);
     for (const optics::WardModel ward :
-         {optics::WardModel::Published, optics::WardModel::WardDuer, optics::WardModel::Bounded})
+         {optics::WardModel::Published, optics::WardModel::Duer, optics::WardModel::Bounded})
     {
         shading.ward_model = ward;
         Levels levels = direct;

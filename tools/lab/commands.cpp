@@ -52,7 +52,7 @@ void print_ward_albedo_table()
             const cv::Vec3d incident(std::sin(theta), 0, std::cos(theta));
             fmt::print("| {} | {} deg |", alpha, degrees);
             for (optics::WardModel model :
-                 {optics::WardModel::Published, optics::WardModel::WardDuer, optics::WardModel::Bounded})
+                 {optics::WardModel::Published, optics::WardModel::Duer, optics::WardModel::Bounded})
                 fmt::print(" {:.3f} |", optics::ward_albedo(model, alpha, alpha, incident));
             fmt::print("\n");
         }

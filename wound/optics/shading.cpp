@@ -140,7 +140,7 @@ double ward(WardModel model, double alpha_x, double alpha_y, const cv::Vec3d& in
     switch (model) {
     case WardModel::Published:
         return lobe / (4 * slopes * std::sqrt(ci * co));
-    case WardModel::WardDuer:
+    case WardModel::Duer:
         return lobe / (4 * slopes * ci * co);
     case WardModel::Bounded:
         break;
