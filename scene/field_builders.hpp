@@ -267,6 +267,14 @@ Field<Object> affecting(Affects affects, Field<Object> field)
 }
 
 template <typename Object>
+Field<Object> shown_when(std::type_identity_t<std::function<bool(const Object&)>> matters,
+                         Field<Object> field)
+{
+    field.shown_when = std::move(matters);
+    return field;
+}
+
+template <typename Object>
 Field<Object> with_slider(Field<Object> field, Slider slider)
 {
     field.slider = std::move(slider);

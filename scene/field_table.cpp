@@ -1,7 +1,6 @@
 #include "scene/field_table.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -73,10 +72,12 @@ const std::vector<Field<wound::Healing>>& healing_fields()
                         "theta", "1/day", -1, 1, [](auto& h) -> auto& { return h.curve.theta; },
                         "H3's hyperbolic rate; if negative, the wound grows first"),
                     {"theta", -.2, .5, "%.3f"}),
-        with_slider(number<Healing>(
-                        "residual_border", "", 0, 1, [](auto& h) -> auto& { return h.residual_border; },
-                        "final share of the area inside the outer border; for `face`"),
-                    {"residual", 0, 1, "%.2f of the border"}),
+        shown_when(
+            [](const Healing& healing) { return healing.model == wound::HealingModel::Face; },
+            with_slider(number<Healing>(
+                            "residual_border", "", 0, 1, [](auto& h) -> auto& { return h.residual_border; },
+                            "final share of the area inside the outer border; for `face`"),
+                        {"residual", 0, 1, "%.2f of the border"})),
     });
     return table;
 }
@@ -104,7 +105,7 @@ const std::vector<Field<Wound>>& wound_fields()
             },
             [](json& to, const Wound& wound) { to["segmentation"] = hints_json(wound.segmentation); }),
         choice<Wound>(
-            "kind", wound::shape_names(), [](auto& w) -> auto& { return w.kind; },
+            "kind", wound::kind_names(), [](auto& w) -> auto& { return w.kind; },
             "shape of the default wound"),
         integer<Wound>(
             "seed", 0, 0xffffffff, [](auto& w) -> auto& { return w.seed; },
@@ -326,7 +327,7 @@ const std::vector<Field<Scene>>& scene_fields()
         with_slider(number<Scene>(
                         "exposure_stops", "", -20, 20, [](auto& s) -> auto& { return s.exposure_stops; },
                         "each stop doubles the light before encoding"),
-                    {"exposure", -3, 3, "%+.2f stops"}),
+                    {"exposure", -3, 3, "%+.2f stops", false, Section::Light}),
         defaulting(custom<Scene>(
                        "days", "`\"first:last:step\"` or array, 0 to 3650",
                        "days to render; a day may occur twice",
@@ -352,18 +353,5 @@ void hash_fields(base::Hash& hash, const Wound& wound, Affects affects)
     }
     hash.add(written.dump());
 }
-
-template <typename Object>
-const Field<Object>& field_named(const std::vector<Field<Object>>& fields, std::string_view name)
-{
-    const auto found = std::ranges::find(fields, name, &Field<Object>::name);
-    assert(found != fields.end());
-    return *found;
-}
-template const Field<Scene>& field_named(const std::vector<Field<Scene>>&, std::string_view);
-template const Field<Wound>& field_named(const std::vector<Field<Wound>>&, std::string_view);
-template const Field<wound::Healing>& field_named(const std::vector<Field<wound::Healing>>&,
-                                                  std::string_view);
-template const Field<Light>& field_named(const std::vector<Field<Light>>&, std::string_view);
 
 } // namespace scene

@@ -7,7 +7,6 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/hash.hpp"
@@ -27,13 +26,23 @@ enum class Affects
     Fit,         // the fit to the skin
 };
 
-/// A number's slider in the window; it may cover only a part of the number's range.
+/// Where in the window the slider of a number of the scene itself stands. The sliders of wounds, healing,
+/// lights and shading stand in the section of that name.
+enum class Section
+{
+    Skin,
+    Light,
+};
+
+/// A number's slider in the window; it may cover only a part of the number's range. Sliders stand in the
+/// order of their fields.
 struct Slider
 {
     std::string label;
     double low = 0, high = 1;
     const char* format = "%.2f"; // of printf
     bool logarithmic = false;
+    Section section = Section::Skin; // of a number of the scene itself
 };
 
 struct FieldInfo
@@ -59,7 +68,9 @@ struct Field : FieldInfo
     std::function<void(base::Fields&, Object&, Reading&)> read;
     /// Adds the field to a JSON object.
     std::function<void(nlohmann::json&, const Object&)> write;
-    std::function<double&(Object&)> number;                   // only for numbers
+    std::function<double&(Object&)> number; // only for numbers
+    /// Whether the number matters in this object, so that the window shows its slider; empty: always.
+    std::function<bool(const Object&)> shown_when;
     std::function<std::filesystem::path(const Object&)> file; // only for files; the path may be empty
     std::function<void(Object&, const std::filesystem::path&)> set_file;
 };
@@ -70,10 +81,6 @@ const std::vector<Field<wound::Healing>>& healing_fields();
 const std::vector<Field<Light>>& light_fields();
 const std::vector<Field<Camera>>& camera_fields();
 const std::vector<Field<optics::Shading>>& shading_fields();
-
-/// The field of that name, which must exist.
-template <typename Object>
-const Field<Object>& field_named(const std::vector<Field<Object>>& fields, std::string_view name);
 
 /// Hashes every field of a wound whose change requires recomputing `affects`, and the files' modification
 /// times.

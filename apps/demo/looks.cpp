@@ -34,6 +34,7 @@ void draw_skin(DemoState& state)
                 scene.reflectance_model = model;
         ImGui::EndCombo();
     }
+    draw_sliders(scene::scene_fields(), scene, scene::Section::Skin);
 }
 
 void draw_light(DemoState& state)
@@ -42,12 +43,10 @@ void draw_light(DemoState& state)
         scene::Light& light = state.scene.lights[i];
         ImGui::PushID(int(i));
         ImGui::TextDisabled(i == 0 ? "key light" : i == 1 ? "fill light" : "light %d", int(i) + 1);
-        draw_slider(scene::light_fields(), "azimuth_deg", light);
-        draw_slider(scene::light_fields(), "elevation_deg", light);
-        draw_slider(scene::light_fields(), "intensity", light);
+        draw_sliders(scene::light_fields(), light);
         ImGui::PopID();
     }
-    draw_slider(scene::scene_fields(), "exposure_stops", state.scene);
+    draw_sliders(scene::scene_fields(), state.scene, scene::Section::Light);
 }
 
 void draw_mode(DemoState& state)
@@ -80,6 +79,7 @@ void draw_terms(optics::Shading& shading)
     bool ambient = shading.ambient != base::Color(0, 0, 0);
     if (ImGui::Checkbox("ambient", &ambient))
         shading.ambient = ambient ? optics::skin_shading().ambient : base::Color(0, 0, 0);
+    draw_sliders(scene::shading_fields(), shading);
 }
 
 void draw_comparison(DemoState& state)

@@ -31,12 +31,10 @@ void draw_list(DemoState& state)
 
 void draw_wound(DemoState& state, scene::Wound& wound)
 {
-    draw_slider(scene::wound_fields(), "width_mm", wound);
-    draw_slider(scene::wound_fields(), "roll_deg", wound);
-    draw_slider(scene::wound_fields(), "depth_factor", wound);
+    draw_sliders(scene::wound_fields(), wound);
     if (wound.photo.empty()) {
         if (ImGui::BeginCombo("kind", wound.kind.c_str())) {
-            for (const std::string& kind : wound::shape_names())
+            for (const std::string& kind : wound::kind_names())
                 if (ImGui::Selectable(kind.c_str(), wound.kind == kind))
                     wound.kind = kind;
             ImGui::EndCombo();
@@ -76,7 +74,8 @@ void draw_curve(const DemoState& state, const wound::Healing& healing)
     list.AddPolyline(open.data(), int(open.size()), IM_COL32(237, 110, 92, 255), 0, 2 * state.scale);
     if (state.playback.day <= days) {
         const wound::HealingState now = wound::healing_at(healing, state.playback.day);
-        list.AddLine(place(now.day, 0), place(now.day, wound::largest_drawn_ratio), IM_COL32(255, 255, 255, 110));
+        list.AddLine(place(now.day, 0), place(now.day, wound::largest_drawn_ratio),
+                     IM_COL32(255, 255, 255, 110));
         list.AddCircleFilled(place(now.day, std::min(now.unhealed_ratio, wound::largest_drawn_ratio)),
                              3.5f * state.scale, IM_COL32(255, 255, 255, 255));
     }
@@ -105,11 +104,7 @@ void draw_healing(DemoState& state, wound::Healing& healing)
     }
     if (!ImGui::TreeNode("Parameters"))
         return;
-    draw_slider(scene::healing_fields(), "gamma", healing);
-    draw_slider(scene::healing_fields(), "delta", healing);
-    draw_slider(scene::healing_fields(), "theta", healing);
-    if (face)
-        draw_slider(scene::healing_fields(), "residual_border", healing);
+    draw_sliders(scene::healing_fields(), healing);
     ImGui::TreePop();
 }
 

@@ -58,9 +58,8 @@ optics::Shading bare_color(optics::BlendModel model)
 class Scene
 {
   public:
-    Scene(const std::string& shape, wound::HealingModel model, const head::Anchor& anchor)
-        : prepared(wound::prepare(wound::synthesize({.shape = wound::shape_named(shape), .seed = 3}),
-                                  {.patch_size = 256})),
+    Scene(const std::string& kind, wound::HealingModel model, const head::Anchor& anchor)
+        : prepared(wound::prepare(wound::synthesize({.kind = kind, .seed = 3}), {.patch_size = 256})),
           anchor_(anchor)
     {
         healing.model = model;
@@ -209,16 +208,16 @@ using SkinBlendOnGpu = gpu_test::Test;
 
 TEST_F(SkinBlendOnGpu, ColorAndOcclusionEqualThoseOfTheCpu)
 {
-    for (const std::string& shape : wound::shape_names())
+    for (const std::string& kind : wound::kind_names())
         for (const auto model : {wound::HealingModel::Face, wound::HealingModel::Contraction}) {
-            Scene scene(shape, model, {});
+            Scene scene(kind, model, {});
             for (const double day : days) {
                 const wound::WoundDay today = wound::wound_at(scene.prepared, scene.healing, day);
                 const wound::DayMaps maps = scene.maps_on(today);
                 for (const auto blend : {optics::BlendModel::Corrected, optics::BlendModel::Published}) {
                     const Difference found = compare_color(scene, today, maps, blend);
                     const std::string where =
-                        fmt::format("{}, model {}, day {}, blend {}", shape, int(model), day, int(blend));
+                        fmt::format("{}, model {}, day {}, blend {}", kind, int(model), day, int(blend));
                     EXPECT_LT(found.largest, of_color.largest) << where;
                     EXPECT_LT(found.mean, of_color.mean) << where;
                 }

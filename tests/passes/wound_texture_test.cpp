@@ -269,9 +269,8 @@ TEST_F(WoundTextureOnGpu, MapsOfADayEqualThoseOfTheCpu)
 {
     constexpr double share = 2e-3; // of the largest value
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
-    for (const std::string& shape : wound::shape_names()) {
-        const wound::PreparedWound wound =
-            prepared(wound::synthesize({.shape = wound::shape_named(shape), .seed = 3}), 256);
+    for (const std::string& kind : wound::kind_names()) {
+        const wound::PreparedWound wound = prepared(wound::synthesize({.kind = kind, .seed = 3}), 256);
         passes::WoundMaps maps = passes::upload_wound(gpu_test::device(), wound.patch);
         const double depth = share * cv::norm(wound.patch.depth_mm, cv::NORM_INF),
                      slope = .5 * depth / (maps.width_mm / maps.size);
@@ -283,7 +282,7 @@ TEST_F(WoundTextureOnGpu, MapsOfADayEqualThoseOfTheCpu)
                 const wound::WoundDay today = wound::wound_at(wound, healing, day);
                 const wound::DayMaps cpu = wound::maps_on(wound, today, maps.region);
                 const wound::DayMaps drawn = draw(executor, maps, today);
-                const std::string where = fmt::format("{}, model {}, day {}: ", shape, int(model), day);
+                const std::string where = fmt::format("{}, model {}, day {}: ", kind, int(model), day);
                 expect_near(drawn.color, cpu.color, cv::Vec4d::all(share), where + "color");
                 expect_near(drawn.state, cpu.state, {depth, depth, share, share}, where + "state");
                 expect_near(drawn.relief, cpu.relief, {slope, slope, slope, depth}, where + "relief");

@@ -71,6 +71,19 @@ TEST(FieldTable, SlidersStayWithinTheRanges)
     });
 }
 
+TEST(FieldTable, SlidersStandWhereTheWindowDrawsThem)
+{
+    for (const auto& field : scene::camera_fields())
+        EXPECT_FALSE(field.slider) << field.name << ": the window has no section for the camera's sliders";
+    const auto of_face = [](const auto& field) {
+        wound::Healing contraction;
+        contraction.model = wound::HealingModel::Contraction;
+        return field.shown_when && field.shown_when({}) && !field.shown_when(contraction);
+    };
+    for (const auto& field : scene::healing_fields())
+        EXPECT_EQ(of_face(field), field.name == "residual_border") << field.name;
+}
+
 std::uint64_t key(const scene::Wound& wound, scene::Affects affects)
 {
     base::Hash hash;

@@ -13,11 +13,11 @@ using testing_wounds::compose;
 using testing_wounds::PlacedWound;
 using testing_wounds::Setting;
 
-PlacedWound placed(wound::WoundShape shape, std::uint32_t seed, cv::Point at, int side,
+PlacedWound placed(const char* kind, std::uint32_t seed, cv::Point at, int side,
                    const cv::Vec3d& tint = {1, 1, 1})
 {
     PlacedWound result{{}, at, side, tint};
-    result.wound.shape = shape;
+    result.wound.kind = kind;
     result.wound.seed = seed;
     return result;
 }
@@ -25,8 +25,8 @@ PlacedWound placed(wound::WoundShape shape, std::uint32_t seed, cv::Point at, in
 /// A red and a smaller, dark wound on skin that fills the picture.
 wound::Photograph two_on_skin()
 {
-    return compose({}, {placed(wound::WoundShape::Abrasion, 11, {200, 240}, 280),
-                        placed(wound::WoundShape::Avulsion, 12, {470, 120}, 160, {.75, .75, .75})});
+    return compose({}, {placed("abrasion", 11, {200, 240}, 280),
+                        placed("avulsion", 12, {470, 120}, 160, {.75, .75, .75})});
 }
 
 Setting limb(const cv::Vec3b& background, const cv::Vec3b& skin = {212, 164, 140})
@@ -40,9 +40,8 @@ Setting limb(const cv::Vec3b& background, const cv::Vec3b& skin = {212, 164, 140
 
 std::vector<PlacedWound> three_along_a_limb()
 {
-    return {placed(wound::WoundShape::Abrasion, 21, {230, 330}, 220),
-            placed(wound::WoundShape::Avulsion, 22, {260, 510}, 150, {.8, .8, .8}),
-            placed(wound::WoundShape::Laceration, 23, {215, 130}, 200)};
+    return {placed("abrasion", 21, {230, 330}, 220), placed("avulsion", 22, {260, 510}, 150, {.8, .8, .8}),
+            placed("laceration", 23, {215, 130}, 200)};
 }
 
 /// As many wounds are found as drawn, and each drawn one overlaps a found one by more than `least` (IoU).
@@ -88,11 +87,10 @@ TEST(FoundWounds, SkinAloneHasNone)
 
 TEST(FoundWounds, AGeneratedPhotographShowsOne)
 {
-    for (const auto shape :
-         {wound::WoundShape::Abrasion, wound::WoundShape::Laceration, wound::WoundShape::Avulsion})
+    for (const char* kind : {"abrasion", "laceration", "avulsion"})
         for (std::uint32_t seed : {1, 2}) {
             wound::SyntheticWound synthetic;
-            synthetic.shape = shape;
+            synthetic.kind = kind;
             synthetic.seed = seed;
             const auto photo = wound::synthesize(synthetic);
             expect_alike(wound::segment(photo.srgb, {}, "p"), photo.mask, .5);

@@ -14,10 +14,10 @@ namespace lab {
 namespace {
 
 /// A synthetic wound prepared as in a scene, but with the photograph's skin tone instead of the face's.
-wound::PreparedWound matched(wound::WoundShape shape, int patch_size)
+wound::PreparedWound matched(const std::string& kind, int patch_size)
 {
     wound::SyntheticWound synthetic;
-    synthetic.shape = shape;
+    synthetic.kind = kind;
     wound::Preparation preparation;
     preparation.patch_size = patch_size;
     wound::PreparedWound wound = wound::prepare(wound::synthesize(synthetic), preparation);
@@ -49,7 +49,7 @@ void measure_models(stage::Renderer& renderer, int rounds, base::Progress& progr
     constexpr std::array<double, 4> ratios{.6, .2, .05, .01};
     constexpr std::array models{wound::WarpModel::Radial, wound::WarpModel::Grid, wound::WarpModel::Dense,
                                 wound::WarpModel::Composed};
-    const wound::PreparedWound wound = matched(wound::WoundShape::Abrasion, size);
+    const wound::PreparedWound wound = matched("abrasion", size);
     const passes::WoundMaps maps = passes::upload_wound(renderer.device, wound.patch);
     wound::Healing healing;
     healing.model = wound::HealingModel::Contraction; // one warp instead of two
@@ -77,11 +77,8 @@ void measure_region(stage::Renderer& renderer, int rounds, base::Progress& progr
 {
     fmt::print("\n| default wound | healing | region | texels | patch, ms | region, ms | ratio |\n"
                "|---|---|---|---|---|---|---|\n");
-    constexpr std::array shapes{std::pair("abrasion", wound::WoundShape::Abrasion),
-                                std::pair("laceration", wound::WoundShape::Laceration),
-                                std::pair("avulsion", wound::WoundShape::Avulsion)};
-    for (const auto& [name, shape] : shapes) {
-        const wound::PreparedWound wound = matched(shape, 512);
+    for (const std::string& name : wound::kind_names()) {
+        const wound::PreparedWound wound = matched(name, 512);
         passes::WoundMaps maps = passes::upload_wound(renderer.device, wound.patch);
         for (const wound::HealingModel model : {wound::HealingModel::Face, wound::HealingModel::Contraction})
         {

@@ -1,9 +1,6 @@
 #include "wound/synthetic/synthetic.hpp"
 
 #include <algorithm>
-#include <cassert>
-
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -145,24 +142,12 @@ cv::Mat3b develop(cv::Mat3f reflectance, std::uint32_t seed)
 
 } // namespace
 
-const std::vector<std::string>& shape_names()
-{
-    static const std::vector<std::string> names{"abrasion", "laceration", "avulsion"};
-    return names;
-}
-
-WoundShape shape_named(std::string_view name)
-{
-    const auto found = std::ranges::find(shape_names(), name);
-    assert(found != shape_names().end());
-    return WoundShape(found - shape_names().begin());
-}
-
 Photograph synthesize(const SyntheticWound& wound)
 {
     CV_Assert(wound.size >= 64);
-    const Noise noise(hash(wound.seed, int(wound.shape), 0));
-    const cv::Mat1f distance = outline_distance(wound, noise);
+    const WoundKind& kind = kind_named(wound.kind);
+    const Noise noise(hash(wound.seed, int(&kind - wound_kinds().data()), 0));
+    const cv::Mat1f distance = outline_distance(kind, wound, noise);
     Surface surface = paint(wound, noise, distance);
     light(surface);
     return {develop(surface.reflectance, wound.seed + 9), distance > 0};

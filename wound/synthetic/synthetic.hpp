@@ -5,28 +5,15 @@
 #pragma once
 #include <cstdint>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "wound/patch.hpp"
+#include "wound/synthetic/kind.hpp"
 
 namespace wound {
 
-enum class WoundShape
-{
-    Abrasion,   // ragged oval, about 27 x 19 mm: cheek
-    Laceration, // gaping cut, about 34 x 7 mm: above the eyebrow
-    Avulsion    // several lobes and tears, about 21 mm: chin
-};
-
-/// The shapes' names, in their order: "abrasion", ...
-const std::vector<std::string>& shape_names();
-/// The shape of that name, which must be one of them.
-WoundShape shape_named(std::string_view name);
-
 struct SyntheticWound
 {
-    WoundShape shape = WoundShape::Abrasion;
+    std::string kind = "abrasion"; // one of kind_names()
     std::uint32_t seed = 1;
     float clot = .2f;              // fraction of the open bed, 0..1
     float fibrin = .22f;           // fraction of the open bed, 0..1

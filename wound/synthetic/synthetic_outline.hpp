@@ -1,6 +1,6 @@
 // The outline of the generated wound's open bed: ragged, given by the signed distance to it.
 #pragma once
-#include "wound/synthetic/noise.hpp"
+#include "wound/synthetic/kind.hpp"
 #include "wound/synthetic/synthetic.hpp"
 
 namespace wound {
@@ -13,6 +13,6 @@ inline cv::Point2f synthetic_position_mm(float x, float y, int size)
 }
 
 /// Signed distance to the outline for every pixel, mm, positive inside. One connected region without holes.
-cv::Mat1f outline_distance(const SyntheticWound& wound, const Noise& noise);
+cv::Mat1f outline_distance(const WoundKind& kind, const SyntheticWound& wound, const Noise& noise);
 
 } // namespace wound
