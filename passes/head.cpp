@@ -62,8 +62,10 @@ Head upload_head(const gpu::Device& device, const head::Model& model)
         return head.textures.back().get();
     };
     head.white = keep(cv::Mat4b(1, 1, cv::Vec4b(255, 255, 255, 255)), gpu::Encoding::Linear, "white");
-    const gpu::Texture* flat =
-        keep(cv::Mat4b(1, 1, cv::Vec4b(128, 128, 255, 255)), gpu::Encoding::Linear, "flat normal");
+    // Half floats hold the decoded (0, 0, 1) exactly; 128 of 255 would tilt the normal by .3 degrees.
+    cv::Mat level;
+    cv::Mat4f(1, 1, cv::Vec4f(.5f, .5f, 1, 1)).convertTo(level, CV_16F);
+    const gpu::Texture* flat = keep(level, gpu::Encoding::Linear, "flat normal");
 
     const std::uint32_t skin = head::skin_material(model);
     std::vector<HeadPart> materials;

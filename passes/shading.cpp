@@ -38,8 +38,7 @@ shared::Lighting lighting(std::span<const optics::Light> lights)
             .direction = head::to_glm(light.direction),
             .reference_distance = static_cast<float>(light.reference_distance_m),
             .strength = head::to_glm(light.strength),
-            .distance_scale = static_cast<float>(light.translucency_distance.scale),
-            .distance_offset = static_cast<float>(light.translucency_distance.offset),
+            .distance_scale = static_cast<float>(light.paper_units_per_m),
         };
     return result;
 }

@@ -45,7 +45,8 @@ DayWounds::DayWounds(const scene::LoadedScene& scene, double day, const std::opt
     const double last_day = scene::last_day(scene.scene);
     for (std::size_t i = 0; i < scene.wounds.size(); ++i) {
         const scene::PlacedWound& placed = scene.wounds[i];
-        const wound::LutRows rows = wound::lut_rows(scene.tissue, placed.healing, wound::lut_size, last_day);
+        const wound::LutRows rows =
+            wound::lut_rows(scene.tissue_at(placed), placed.healing, wound::lut_size, last_day);
         const cv::Rect region =
             placed.region.empty() ? cv::Rect({}, placed.prepared().patch.color.size()) : placed.region;
         wounds_.push_back({placed.anchor, wound::maps_on(placed.prepared(), today_[i], region),
@@ -59,9 +60,10 @@ DayWounds::DayWounds(const scene::LoadedScene& scene, double day, const std::opt
 ReducedTissue DayWounds::tissue_under(std::size_t wound, bool bed, double day) const
 {
     const wound::Healing& healing = scene_.wounds[wound].healing;
+    const optics::HealingTissue here = scene_.tissue_at(scene_.wounds[wound]);
     const optics::TissueDay tissue =
-        bed ? optics::open_bed(scene_.tissue, day, wound::healing_at(healing, day).depth_scale)
-            : optics::covered_bed(scene_.tissue, day, wound::closure_day(healing.curve));
+        bed ? optics::open_bed(here, day, wound::healing_at(healing, day).depth_scale)
+            : optics::covered_bed(here, day, wound::closure_day(healing.curve));
     const wound::DayMaps& maps = wounds_[wound].maps;
     const double depth_mm = bed ? median_depth_mm(maps, 0, 2) : median_depth_mm(maps, 1, 3);
     return kept_reduction(base::cache_folder(), optics::layers_at(tissue, depth_mm), *table_, choice_);

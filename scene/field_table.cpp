@@ -29,6 +29,22 @@ std::vector<std::string> reflectance_models()
     return names;
 }
 
+/// Also reads "clamped", the earlier name of what is "published" now.
+Field<Scene> reflectance_model_field()
+{
+    Field<Scene> field = choice<Scene>(
+        "reflectance_model", reflectance_models(), [](auto& s) -> auto& { return s.reflectance_model; },
+        "how colour is computed from layers ([optics](optics.md)). The last two run on the CPU, for "
+        "seconds and minutes, when a tissue is first used; results are kept in the cache folder");
+    field.read = [read = field.read](base::Fields& fields, Scene& scene, Reading& reading) {
+        if (const json* value = fields.get("reflectance_model"); value && *value == "clamped")
+            scene.reflectance_model = optics::ReflectanceModel::Published;
+        else
+            read(fields, scene, reading);
+    };
+    return field;
+}
+
 } // namespace
 
 // ---- The tables
@@ -290,10 +306,7 @@ const std::vector<Field<Scene>>& scene_fields()
                                }),
                    "one default wound"),
         tissue_field(),
-        choice<Scene>(
-            "reflectance_model", reflectance_models(), [](auto& s) -> auto& { return s.reflectance_model; },
-            "how colour is computed from layers ([optics](optics.md)). The last two run on the CPU, for "
-            "seconds and minutes, when a tissue is first used; results are kept in the cache folder"),
+        reflectance_model_field(),
         nested<Scene>("shading", shading_fields(), &Scene::shading, "see below"),
         defaulting(list<Scene>("lights", std::size_t(shared::MAX_LIGHTS), light_fields(), &Scene::lights,
                                "see below; each casts a shadow, unless it is too close to the head or "

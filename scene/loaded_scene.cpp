@@ -32,7 +32,7 @@ optics::Light make_light(const Light& light, const head::FaceFrame& face)
     made.direction = head::to_cv(towards);
     made.strength = cv::Vec3d(light.color[0], light.color[1], light.color[2]) * light.intensity;
     made.reference_distance_m = std::max(light.distance_m, 1e-3);
-    made.translucency_distance = optics::paper_distance(head_height(face), light.distance_m);
+    made.paper_units_per_m = optics::paper_units_per_m(head_height(face));
     return made;
 }
 
@@ -52,14 +52,19 @@ std::vector<optics::Light> make_lights(const Scene& scene, const head::FaceFrame
     return made;
 }
 
-std::vector<std::string> notes_on(const Scene& scene, const LoadedHead& head,
-                                  const optics::HealingTissue& tissue)
+/// Tells once of each tissue where the paper's equations leave their domain.
+void add_domain_notes(LoadedScene& loaded)
 {
-    std::vector<std::string> notes = head.notes;
-    if (scene.reflectance_model == optics::ReflectanceModel::Published)
-        if (const auto note = optics::domain_note(optics::layers_of(tissue)))
-            notes.push_back(*note);
-    return notes;
+    std::vector<std::string> told;
+    for (const PlacedWound& wound : loaded.wounds) {
+        const auto note =
+            optics::domain_note(optics::layers_of(loaded.tissue_at(wound)), loaded.scene.reflectance_model);
+        if (!note || std::ranges::count(told, *note) > 0)
+            continue;
+        told.push_back(*note);
+        loaded.notes.push_back(
+            fmt::format("{}: {}", name_of(loaded.shown[wound.scene_wound], wound.scene_wound), *note));
+    }
 }
 
 /// `exact`: `photograph` was fitted for this wound; otherwise it replaces one that is not ready yet.
@@ -104,6 +109,13 @@ void place_wounds(LoadedScene& loaded, WoundLoader& loader, const LoadedScene& b
 }
 
 } // namespace
+
+bool LoadedScene::same_tissue(const PlacedWound& a, const PlacedWound& b) const
+{
+    const auto* const table = std::get_if<optics::SkinLayers>(&tissue);
+    return a.healing == b.healing &&
+           (table == nullptr || !table->facial || a.fitted().thickness == b.fitted().thickness);
+}
 
 std::vector<wound::WoundDay> LoadedScene::wounds_on(double day) const
 {
@@ -220,9 +232,10 @@ LoadedScene assemble(const Scene& scene, WoundLoader& loader, const LoadedScene&
     loaded.tissue = (before.complete || !before.shown.empty()) && scene.tissue == before.scene.tissue
                         ? before.tissue
                         : optics::healing_tissue_or_file(scene.tissue);
-    loaded.notes = notes_on(scene, *loaded.head, loaded.tissue);
+    loaded.notes = loaded.head->notes;
     loaded.lights = make_lights(scene, loaded.head->face);
     place_wounds(loaded, loader, before, dragging);
+    add_domain_notes(loaded);
     return loaded;
 }
 

@@ -49,6 +49,13 @@ struct LoadedScene
     std::vector<Wound> shown;
     std::vector<std::shared_ptr<const FittedPhotograph>> photographs;
 
+    /// The tissue at a placed wound (wound::at_place()).
+    optics::HealingTissue tissue_at(const PlacedWound& wound) const
+    {
+        return wound::at_place(tissue, wound.fitted().thickness);
+    }
+    /// Whether the tissue of both heals alike, so that one reflectance table serves both.
+    bool same_tissue(const PlacedWound& a, const PlacedWound& b) const;
     /// The state of each placed wound on a day.
     std::vector<wound::WoundDay> wounds_on(double day) const;
     /// The head's surface in mm^2 under each texel of a placed wound's region (head/albedo_under.hpp).

@@ -58,6 +58,7 @@ cv::Point2d tissue_coordinates(const head::FacePoint& face)
     return {face.x / 0.55, face.y / (face.y > 0 ? 0.65 : 0.58)};
 }
 
+/// The layers' thickness for the wound's depth.
 wound::TissueThickness tissue_at(const Wound& wound, const head::FacePoint& face)
 {
     const wound::TissueThickness tissue = wound::tissue_thickness(tissue_coordinates(face));
@@ -105,7 +106,8 @@ std::shared_ptr<const WoundLoader::Prepared> make_prepared(const Wound& wound, c
 FittedWound fit_part(const Wound& wound, const WoundLoader::Prepared& photograph, std::size_t part,
                      const head::Anchor& anchor, const LoadedHead& head)
 {
-    FittedWound fitted{photograph.prepared[part], anchor, {}};
+    FittedWound fitted{
+        photograph.prepared[part], anchor, wound::tissue_thickness(tissue_coordinates(anchor.face)), {}};
     wound::Patch& patch = fitted.prepared.patch;
     if (const wound::TissueThickness tissue = tissue_at(wound, anchor.face); tissue != photograph.tissue) {
         wound::DepthOptions options;

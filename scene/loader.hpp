@@ -36,7 +36,8 @@ struct FittedWound
 {
     wound::PreparedWound prepared; // matched to the skin
     head::Anchor anchor;
-    cv::Rect region; // wound::drawn_region
+    wound::TissueThickness thickness; // of the skin's layers at the anchor
+    cv::Rect region;                  // wound::drawn_region
 };
 
 /// The wounds of one photograph, one per component of its mask or per wound found.

@@ -91,8 +91,10 @@ std::string name_of(const Wound& wound, std::size_t index);
 /// The last of the days, at least 1: reflectance tables reach so far.
 double last_day(const Scene& scene);
 
-/// Sets everything as in the paper: its equations, Table 1, contraction alone, one light without falloff, no
-/// shadow, no ambient light.
+/// Published mode: everything as in the paper, nothing of ours beside it. Eqs. (2) and (3) in their domain, of
+/// Table 1 as thick as at the wound's place; eqs. (4), (6) and (7) as printed, with the paper's coefficients;
+/// contraction alone; one light without falloff at the paper's distance; no shadow, no ambient light. A scene
+/// may also name the `published` model of a single equation. docs/shading.md compares the modes.
 void make_published(Scene& scene);
 
 /// Checks a scene that was not read by read_scene(), for instance one edited in the window: counts of days,

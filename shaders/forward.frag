@@ -73,9 +73,10 @@ void main()
     frame = frame_of(bend_to_viewer(skin.normal, to_viewer), v_tangent);
     ShadingParams params = shading;
     // A wet bed has a narrower lobe: small highlights rather than a sheen. Taut new epithelium: slightly
-    // narrower.
-    params.slope *= part.slope * (1 - 0.4 * skin.wetness) * (1 - 0.25 * skin.tautness);
-    params.rho_s *= part.specular * (1 - 0.4 * skin.wetness + 0.15 * skin.tautness);
+    // narrower. Nothing of this, and no occlusion, is in eq. (7) as published.
+    const bool only_ward = WARD_MODEL == WARD_PUBLISHED;
+    params.slope *= part.slope * (only_ward ? 1 : (1 - 0.4 * skin.wetness) * (1 - 0.25 * skin.tautness));
+    params.rho_s *= part.specular * (only_ward ? 1 : 1 - 0.4 * skin.wetness + 0.15 * skin.tautness);
     const vec3 local_viewer = to_viewer * frame;
     vec3 diffuse = AMBIENT ? params.ambient * skin.occlusion : vec3(0); // times rho_d already, and the albedo C below
     vec3 mirrored = vec3(0);
@@ -103,6 +104,6 @@ void main()
     // Translucency is multiplied by ambient occlusion, except in the published model.
     if (TRANSLUCENCY)
         diffuse += v_subsurface * part.translucency * (TRANSLUCENCY_MODEL == TRANSLUCENCY_PUBLISHED ? 1 : skin.occlusion);
-    const vec3 radiance = diffuse * skin.albedo + mirrored * skin.occlusion;
+    const vec3 radiance = diffuse * skin.albedo + mirrored * (only_ward ? 1 : skin.occlusion);
     out_color = vec4(finite_radiance(radiance), albedo.a);
 }

@@ -32,7 +32,8 @@ LutLayer layer_at(uint base, uint i, LutDay day, float injury_mm, inout float re
     float whole = layer.thickness_mm, taken = min(removed_mm, whole);
     removed_mm -= taken;
     layer.thickness_mm = whole - taken;
-    if (i + 1 < parameters.layers_per_day && layer.thickness_mm > 0.0)
+    // The paper's equations get every layer's own index.
+    if (MODEL > REFLECTANCE_PUBLISHED && i + 1 < parameters.layers_per_day && layer.thickness_mm > 0.0)
         layer.n = mix(layers[base + i + 1].n, layer.n, min(4.0 * layer.thickness_mm / whole, 1.0));
     return layer;
 }
@@ -45,7 +46,7 @@ vec3 reflect_band(uint band, uint base, LutDay day, float injury_mm)
     float n_first = parameters.n_above, n = parameters.n_above;
     Element stack = Element(vec3(0.0), vec3(0.0), vec3(1.0), vec3(1.0));
     vec3 paper_sum = vec3(0.0), incoming = vec3(1.0);
-    LutLayer pending; // the published equations need the next layer's index: they run one layer late
+    LutLayer pending; // the paper's equations need the next layer's index: they run one layer late
     LutBand pending_optics;
     bool any_layer = false;
     for (uint i = 0; i <= parameters.layers_per_day; ++i) {

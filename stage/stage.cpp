@@ -114,7 +114,7 @@ Stage::Set Stage::make(const scene::Scene& scene) const
             ? set_.wounded
             : std::make_shared<const passes::Head>(passes::with_wounds(*device_, *set.bare, model, anchors));
     for (const scene::PlacedWound& wound : set.loaded.wounds)
-        set.wounds.push_back({maps_of(wound), lut_of(set, wound.healing)});
+        set.wounds.push_back({maps_of(wound), lut_of(set, wound)});
     return set;
 }
 
@@ -136,25 +136,25 @@ passes::WoundMaps Stage::maps_of(const scene::PlacedWound& wound) const
 }
 
 /// Reuses the table of another wound or of the previous set if tissue, model and healing are the same.
-passes::LutTissue Stage::lut_of(const Set& set, const wound::Healing& healing) const
+passes::LutTissue Stage::lut_of(const Set& set, const scene::PlacedWound& wound) const
 {
     for (std::size_t i = 0; i < set.wounds.size(); ++i)
-        if (set.loaded.wounds[i].healing == healing)
+        if (set.loaded.same_tissue(set.loaded.wounds[i], wound))
             return set.wounds[i].tissue;
     const scene::Scene &now = set.loaded.scene, &before = set_.loaded.scene;
     if (!set_.wounds.empty() && now.tissue == before.tissue &&
         now.reflectance_model == before.reflectance_model && scene::last_day(now) == scene::last_day(before))
         for (std::size_t i = 0; i < set_.wounds.size(); ++i)
-            if (set_.loaded.wounds[i].healing == healing)
+            if (set.loaded.same_tissue(set_.loaded.wounds[i], wound))
                 return set_.wounds[i].tissue;
-    return make_lut(set, healing);
+    return make_lut(set, wound);
 }
 
-passes::LutTissue Stage::make_lut(const Set& set, const wound::Healing& healing) const
+passes::LutTissue Stage::make_lut(const Set& set, const scene::PlacedWound& wound) const
 {
     const scene::Scene& scene = set.loaded.scene;
     const wound::LutRows rows =
-        wound::lut_rows(set.loaded.tissue, healing, wound::lut_size, scene::last_day(scene));
+        wound::lut_rows(set.loaded.tissue_at(wound), wound.healing, wound::lut_size, scene::last_day(scene));
     passes::LutTissue tissue = passes::lut_tissue(rows.days, scene::last_day(scene));
     if (scene.reflectance_model > optics::ReflectanceModel::Calibrated) // not implemented by the shader
         tissue.table = std::make_shared<gpu::Texture>(passes::upload_reflectance_table(
@@ -168,7 +168,7 @@ void Stage::set_tissue(const optics::HealingTissue& tissue)
 {
     set_.loaded.tissue = tissue;
     for (std::size_t i = 0; i < set_.wounds.size(); ++i)
-        set_.wounds[i].tissue = make_lut(set_, set_.loaded.wounds[i].healing);
+        set_.wounds[i].tissue = make_lut(set_, set_.loaded.wounds[i]);
 }
 
 std::shared_ptr<const std::vector<wound::WoundDay>> Stage::wounds_on(double day) const

@@ -124,8 +124,8 @@ class Stage
 
     Set make(const scene::Scene& scene) const;
     passes::WoundMaps maps_of(const scene::PlacedWound& wound) const;
-    passes::LutTissue make_lut(const Set& set, const wound::Healing& healing) const;
-    passes::LutTissue lut_of(const Set& set, const wound::Healing& healing) const;
+    passes::LutTissue make_lut(const Set& set, const scene::PlacedWound& wound) const;
+    passes::LutTissue lut_of(const Set& set, const scene::PlacedWound& wound) const;
     void accept(Set set);
 
     const gpu::Device* device_;

@@ -84,6 +84,18 @@ TissueThickness tissue_thickness(cv::Point2d face)
     return tissue;
 }
 
+optics::HealingTissue at_place(optics::HealingTissue tissue, const TissueThickness& thickness)
+{
+    auto* const table = std::get_if<optics::SkinLayers>(&tissue);
+    if (table == nullptr || !table->facial)
+        return tissue;
+    CV_Assert(table->layers.size() == 3);
+    table->layers[0].thickness_mm = thickness.epidermis;
+    table->layers[1].thickness_mm = std::clamp(thickness.dermis, 1., 4.);
+    table->layers[2].thickness_mm = std::clamp(thickness.subcutis, 4., thickest_subcutis);
+    return tissue;
+}
+
 double layer_reached(const cv::Vec3f& lab, const cv::Vec3f& skin)
 {
     // Blood makes the dermis redder and more saturated than the yellowish skin. Fat is yellower than skin;

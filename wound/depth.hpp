@@ -5,6 +5,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "wound/optics/skin_presets.hpp"
+
 namespace wound {
 
 /// Thickness of the layers, mm. The defaults are a cheek.
@@ -20,6 +22,10 @@ struct TissueThickness
 /// midline) to 1, y from -1 (the chin's underside) over 0 (the tip of the nose) to 1 (the hairline). Smooth
 /// interpolation of the sites in depth.cpp, symmetric about the midline.
 TissueThickness tissue_thickness(cv::Point2d face);
+
+/// The tissue at a place: facial tissue (Table 1) gets the place's thicknesses, within the ranges of the
+/// table's row d: epidermis .2, dermis 1..4, subcutis 4..9 mm. Other tissue is returned as it is.
+optics::HealingTissue at_place(optics::HealingTissue tissue, const TissueThickness& thickness);
 
 /// The layer that a pixel's hue shows, continuous: 0..1 within the epidermis, 1..2 within the dermis, 2..3
 /// within the subcutis. `skin` is the mean colour of the photograph's healthy skin; both are CIELAB.

@@ -18,7 +18,7 @@ namespace wound {
 
 namespace {
 
-constexpr std::uint64_t table_version = 2; // raise when a model's result or the mapping changes
+constexpr std::uint64_t table_version = 3; // raise when a model's result or the mapping changes
 
 void add(base::Hash& key, const optics::Layer& layer)
 {
@@ -123,7 +123,8 @@ cv::Mat3f bake_reflectance_table(std::span<const optics::TissueDay> rows, std::u
         const int y = int(i) / columns, x = int(i) % columns;
         const float injury = shared::lut_value(static_cast<float>(x), static_cast<float>(columns), deepest);
         const optics::TissueDay& day = rows[static_cast<std::size_t>(y)];
-        const base::Color color = optics::tissue_color(optics::layers_at(day, injury), model, alone);
+        const base::Color color =
+            optics::tissue_color(optics::layers_at(day, injury, optics::is_the_papers(model)), model, alone);
         for (int c = 0; c < 3; ++c) // as displayable() in shaders/lib/reflectance.glsl
             table(y, x)[c] = color[c] > 0 ? static_cast<float>(std::min(color[c], 65504.0)) : 0.0f;
         const int done = ++finished;

@@ -86,6 +86,8 @@ SkinPoint with_wound(SkinPoint skin, const WoundLook& wound, const PatchPlace& p
 
 optics::Shading with_gloss(optics::Shading shading, const SkinPoint& skin)
 {
+    if (shading.ward_model == optics::WardModel::Published)
+        return shading;
     const double narrower = (1 - .4 * skin.wetness) * (1 - .25 * skin.tautness);
     shading.alpha_x *= narrower;
     shading.alpha_y *= narrower;

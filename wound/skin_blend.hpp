@@ -50,7 +50,8 @@ SkinPoint with_wound(SkinPoint skin, const WoundLook& wound, const PatchPlace& p
                      optics::BlendModel model);
 
 /// The specular parameters for this wetness and tautness: a wet bed has a narrower lobe, taut new epithelium
-/// a slightly narrower one.
+/// a slightly narrower one. optics::WardModel::Published is eq. (7) alone and gets the shading as it is; nor
+/// does the point's occlusion dim it, as it does the highlight of the other models in the picture.
 optics::Shading with_gloss(optics::Shading shading, const SkinPoint& skin);
 
 } // namespace wound

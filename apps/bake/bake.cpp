@@ -53,7 +53,7 @@ cv::Mat3b strip(const std::string& title, const cv::Mat3f& table, const shared::
     for (const double day : days) {
         const wound::HealingState state = wound::healing_at(healing, day);
         const optics::SkinLayers printed =
-            optics::layers_at(optics::restored_skin(optics::table1(), state.depth_scale), depth_mm);
+            optics::layers_at(optics::restored_skin(optics::table1(), state.depth_scale), depth_mm, true);
         const base::Color bed = wound::sample_table(table, axes, shared::LUT_OPEN, depth_mm, day);
         open.colors.push_back(day <= closure ? std::optional(bed) : std::nullopt);
         covered.colors.push_back(wound::sample_table(table, axes, shared::LUT_COVERED, depth_mm, day));
@@ -76,9 +76,8 @@ void bake(const BakeOptions& options, std::ostream& out, std::ostream& notes)
     const optics::HealingTissue tissue = optics::healing_tissue_or_file(options.tissue);
     const wound::LutRows rows = wound::lut_rows(tissue, wound::Healing{}, options.height, options.last_day);
     base::make_folder(options.out);
-    if (options.model == optics::ReflectanceModel::Published)
-        if (const auto note = optics::domain_note(optics::layers_of(tissue)))
-            fmt::print(notes, "note: {}\n", *note);
+    if (const auto note = optics::domain_note(optics::layers_of(tissue), options.model))
+        fmt::print(notes, "note: {}\n", *note);
     const std::string title = fmt::format("{}, {}", std::filesystem::path(options.tissue).filename().string(),
                                           optics::name(options.model));
     const cv::Mat3f table = kept_table(rows, options.width, options.model, options.reflectance_options);

@@ -20,8 +20,8 @@ void draw_skin(DemoState& state)
         ImGui::EndCombo();
     }
     constexpr std::array<std::pair<optics::ReflectanceModel, const char*>, 6> models{
-        {{optics::ReflectanceModel::Published, "published"},
-         {optics::ReflectanceModel::Clamped, "clamped"},
+        {{optics::ReflectanceModel::Printed, "printed"},
+         {optics::ReflectanceModel::Published, "published"},
          {optics::ReflectanceModel::Exponential, "exponential"},
          {optics::ReflectanceModel::TwoStreamPaper, "two-stream, paper"},
          {optics::ReflectanceModel::TwoStream, "two-stream"},

@@ -90,16 +90,17 @@ void reflect(const ReflectOptions& options, std::ostream& out, std::ostream& not
         const base::Lab lab = base::lab_from_linear(color);
         json["cielab"] = {lab.l, lab.a, lab.b}; // D65, 2 degrees
     }
-    if (options.model == optics::ReflectanceModel::Published) {
-        json["outside_domain"] = domain_report(tissue);
-        if (const auto note = optics::domain_note(tissue))
-            fmt::print(notes, "note: {}\n", *note);
-        if (std::ranges::any_of(tissue.layers,
-                                [](const optics::Layer& l) { return std::isinf(l.thickness_mm); }))
-            fmt::print(notes,
-                       "note: eqs. (2) and (3) have no value for a layer of infinite thickness (null in the "
-                       "output); give its thickness or choose another --model\n");
-    }
+    if (optics::is_the_papers(options.model))
+        json[options.model == optics::ReflectanceModel::Published ? "limited" : "outside_domain"] =
+            domain_report(tissue);
+    if (const auto note = optics::domain_note(tissue, options.model))
+        fmt::print(notes, "note: {}\n", *note);
+    if (options.model == optics::ReflectanceModel::Printed &&
+        std::ranges::any_of(tissue.layers, [](const optics::Layer& l) { return std::isinf(l.thickness_mm); }))
+        fmt::print(
+            notes,
+            "note: eqs. (2) and (3) as printed have no value for a layer of infinite thickness (null in "
+            "the output); give its thickness or choose another --model\n");
     out << json.dump(2) << '\n';
 }
 

@@ -1,6 +1,6 @@
 // Diffuse reflectance of layered tissue in single precision: the analytic models (docs/optics.md). A test
 // compares it with the double-precision reference wound/optics/reflectance.cpp. All functions are finite for
-// sigma <= 1e6 mm^-1, any thickness, n in 1..3, g in -1..1, except the published equations, which overflow
+// sigma <= 1e6 mm^-1, any thickness, n in 1..3, g in -1..1, except the printed equations, which overflow
 // far outside their domain.
 #ifndef LIB_REFLECTANCE_GLSL
 #define LIB_REFLECTANCE_GLSL
@@ -117,27 +117,26 @@ void paper_layer(int model, vec3 sigma_a, vec3 s, float thickness_mm, float lowe
         scattered = 0.5 * s / max(sigma_a + s, vec3(1e-30)) * (1.0 - left * left);
     } else {
         vec3 d = vec3(thickness_mm);
-        if (model == REFLECTANCE_CLAMPED)
+        if (model == REFLECTANCE_PUBLISHED)
             d = min(d, 1.0 / max(sigma_a + s, vec3(1e-30)));
         vec3 ad = sigma_a * d;
         left = 1.0 - (sigma_a + s) * d;
         scattered = s * d * (1.0 - ad + ad * ad / 3.0);
-        if (model == REFLECTANCE_CLAMPED)
+        if (model == REFLECTANCE_PUBLISHED)
             left = max(left, vec3(0.0)); // rounding
     }
     reflected = scattered + lower_boundary * left * left;
     transmitted = left * (1.0 - lower_boundary);
 }
 
-// The factor of eq. (3): the light that leaves through the upper boundary. The two bounded models limit it by
-// the light that entered.
+// The factor of eq. (3): the light that leaves through the upper boundary; the exponential model takes the
+// share that entered.
 float paper_top_factor(int model, float n_above, float n_first)
 {
-    float outward = 1.0 - diffuse_fresnel(n_first, n_above), inward = 1.0 - diffuse_fresnel(n_above, n_first);
-    return model == REFLECTANCE_EXPONENTIAL ? inward : model == REFLECTANCE_CLAMPED ? min(outward, inward) : outward;
+    return 1.0 - (model == REFLECTANCE_EXPONENTIAL ? diffuse_fresnel(n_above, n_first) : diffuse_fresnel(n_first, n_above));
 }
 
-// Makes a colour safe for the forward pass. The published equations give values below 0, above 1 and, far
+// Makes a colour safe for the forward pass. The printed equations give values below 0, above 1 and, far
 // outside their domain, NaN. Negative and NaN become 0; values above 1 are kept, up to the largest half
 // float, because they are the model's result.
 vec3 displayable(vec3 color)

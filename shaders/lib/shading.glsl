@@ -41,7 +41,7 @@ vec3 surface_diffuse(ShadingParams p, LightSample light, vec3 local_light)
 // slowly over the surface that it is evaluated per vertex: for vertices 3 mm apart the error is below .1 %.
 vec3 subsurface_diffuse(uint model, ShadingParams p, Light light, vec3 position)
 {
-    float d = max(light.distance_scale * light_distance(light, position) + light.distance_offset, 0.0);
+    float d = light.distance_scale * light_distance(light, position);
     return p.rho_ts * translucency_weight(model, p, d) * light.strength;
 }
 

@@ -54,7 +54,6 @@ struct Light
     float reference_distance; // m
     vec3 strength;            // linear radiance of a white diffuser facing the light at reference_distance
     float distance_scale;     // paper's units per metre
-    float distance_offset;    // paper's units
 };
 
 struct Lighting

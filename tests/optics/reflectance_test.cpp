@@ -10,8 +10,11 @@
 #include "base/input_error.hpp"
 #include "wound/optics/fresnel.hpp"
 #include "wound/optics/healing_tissue.hpp"
+#include "wound/optics/skin_presets.hpp"
+#include "wound/optics/tissue_choice.hpp"
 #include "wound/optics/tissue_file.hpp"
 
+using testing::AllOf;
 using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -79,17 +82,17 @@ TEST(BackwardFraction, HasTheValuesOfTheIntegralAndIsStable)
         EXPECT_NEAR(optics::backward_fraction(g) + optics::backward_fraction(-g), 1, 1e-15);
 }
 
-TEST(Published, ReproducesThePrintedEquationsOnTable1)
+TEST(Printed, ReproducesThePrintedEquationsOnTable1)
 {
-    EXPECT_THAT(optics::diffuse_color(optics::table1(), optics::ReflectanceModel::Published),
+    EXPECT_THAT(optics::diffuse_color(optics::table1(), optics::ReflectanceModel::Printed),
                 rgb(.399, .211, .168, .001));
-    EXPECT_THAT(optics::diffuse_color(optics::table1(.2, 1, 9), optics::ReflectanceModel::Published),
+    EXPECT_THAT(optics::diffuse_color(optics::table1(.2, 1, 9), optics::ReflectanceModel::Printed),
                 rgb(.43, -.05, -.21, .006));
-    EXPECT_THAT(optics::diffuse_color(optics::table1(.2, 4, 9), optics::ReflectanceModel::Published),
+    EXPECT_THAT(optics::diffuse_color(optics::table1(.2, 4, 9), optics::ReflectanceModel::Printed),
                 rgb(.33, 1.80, 2.73, .02));
 }
 
-TEST(Published, ReportsEveryLayerAndChannelOutsideItsDomain)
+TEST(Published, LimitsEveryLayerToTheDomainThatThePaperStates)
 {
     // With the paper's thicknesses: the epidermis in G and B, the whole dermis at 4 mm, the whole subcutis.
     std::vector<optics::OutsideDomain> thin = optics::outside_domain(optics::table1(.2, 1, 4)),
@@ -100,11 +103,53 @@ TEST(Published, ReportsEveryLayerAndChannelOutsideItsDomain)
     EXPECT_NEAR(thin[0].limit_mm, 1 / (1.44 + .353394 * 11), 1e-6);
     EXPECT_EQ(thick.size(), 8u);
     EXPECT_TRUE(optics::outside_domain(optics::table1(.01, .1, .1)).empty());
+
+    // A layer at its limit, made thicker, changes nothing; inside the domain the equations are as printed.
+    for (const double subcutis : {4., 9., infinity})
+        EXPECT_EQ(optics::diffuse_color(optics::table1(.2, 1, subcutis), optics::ReflectanceModel::Published),
+                  optics::diffuse_color(optics::table1(.2, 1, 2), optics::ReflectanceModel::Published));
+    EXPECT_EQ(optics::diffuse_color(optics::table1(.1, .5, .5), optics::ReflectanceModel::Published),
+              optics::diffuse_color(optics::table1(.1, .5, .5), optics::ReflectanceModel::Printed));
+}
+
+TEST(Published, NoteNamesTheLimitedLayersAndChannels)
+{
+    const auto note = [](const optics::SkinLayers& tissue, optics::ReflectanceModel model) {
+        return optics::domain_note(tissue, model).value_or("none");
+    };
+    EXPECT_THAT(note(optics::table1(), optics::ReflectanceModel::Published),
+                AllOf(HasSubstr("5 of 9 layers and channels"), HasSubstr("published takes the limit"),
+                      HasSubstr("epidermis 0.2 mm: G 0.188, B 0.162; subcutis 4 mm: R 1.96,")));
+    EXPECT_THAT(
+        note(optics::table1(), optics::ReflectanceModel::Printed),
+        AllOf(HasSubstr("printed goes on"), HasSubstr("epidermis 0.2 mm: G 0.188, B 0.162; subcutis")));
+    EXPECT_THAT(note(*optics::tissue_preset("light"), optics::ReflectanceModel::Published),
+                AllOf(HasSubstr("dermis 1.8 mm: "), HasSubstr(" of 31 wavelengths, down to ")));
+    EXPECT_EQ(note(optics::table1(.01, .1, .1), optics::ReflectanceModel::Published), "none");
+    EXPECT_EQ(note(optics::table1(), optics::ReflectanceModel::TwoStream), "none");
+}
+
+TEST(Published, TransmittanceIsThatOfEquationTwo)
+{
+    // T = (1 - sa d - ss' P d)(1 - F_b): of the light inside, so without the first surface's reflection.
+    const optics::Stack slab{.layers = {{.1, 2, .3, 1.4, .5}}, .n_above = 1, .n_below = 1.5};
+    const double expected =
+        (1 - .1 * .5 - 2 * optics::backward_fraction(.3) * .5) * (1 - optics::diffuse_fresnel(1.4, 1.5));
+    for (const auto model : {optics::ReflectanceModel::Printed, optics::ReflectanceModel::Published})
+        for (const auto light : {optics::Incidence::Diffuse, optics::Incidence::Normal}) {
+            const optics::Response response = optics::reflectance(slab, model, {.incidence = light});
+            EXPECT_NEAR(response.t, expected, 1e-15);
+            EXPECT_GT(response.absorbed.at(0), 0);
+        }
+    // Layers in turn: the light that one transmits enters the next.
+    const optics::Stack two{.layers = {slab.layers[0], {.2, 1, 0, 1.5, .3}}, .n_above = 1, .n_below = 1.5};
+    EXPECT_NEAR(optics::reflectance(two, optics::ReflectanceModel::Published).t,
+                expected * (1 - .2 * .3 - .5 * .3), 1e-15);
 }
 
 TEST(Models, ReachTheStatedColoursOnTable1)
 {
-    EXPECT_THAT(optics::diffuse_color(optics::table1(), optics::ReflectanceModel::Clamped),
+    EXPECT_THAT(optics::diffuse_color(optics::table1(), optics::ReflectanceModel::Published),
                 rgb(.373, .222, .188, .001));
     EXPECT_THAT(optics::diffuse_color(optics::table1(), optics::ReflectanceModel::Exponential),
                 rgb(.584, .400, .371, .001));
@@ -151,6 +196,15 @@ TEST(HealingTissue, ColourIsContinuousInTheDepth)
         for (int c = 0; c < 3; ++c)
             ASSERT_NEAR(now[c], before[c], .006) << depth;
         before = now;
+    }
+}
+
+TEST(HealingTissue, PaperKeepsTheIndexOfWhatIsLeftOfALayer)
+{
+    const optics::TissueDay fresh = optics::restored_skin(optics::table1(), 1);
+    for (const double depth : {.05, .16, .199}) {
+        EXPECT_EQ(optics::layers_at(fresh, depth, true).layers[0].n, 1.5) << depth;
+        EXPECT_EQ(optics::layers_at(fresh, depth).layers[0].n == 1.5, depth < .15) << depth;
     }
 }
 

@@ -163,11 +163,12 @@ TEST(Translucency, BoundedWeightIsZeroWhereDiffuseReflectanceIsOne)
 
 TEST(Translucency, CanBeInterpolatedBetweenVertices)
 {
-    // A head 0.18 m wide, lit from 0.7 m; a 3 mm edge in any direction, anywhere on its bounding sphere.
-    const optics::DistanceMap map = optics::paper_distance(0.18, 0.7);
-    const cv::Vec3d light(0, 0, 0.7);
+    // A head 0.18 m wide, lit from the paper's distance; a 3 mm edge in any direction, anywhere on its
+    // bounding sphere.
+    const double units_per_m = optics::paper_units_per_m(0.18);
+    const cv::Vec3d light(0, 0, optics::paper_light_distance / units_per_m);
     const auto weight = [&](const optics::Shading& shading, const cv::Vec3d& p) {
-        return optics::translucency(shading, map.scale * cv::norm(light - p) + map.offset);
+        return optics::translucency(shading, units_per_m * cv::norm(light - p));
     };
     for (const optics::Shading& shading : {optics::Shading{}, optics::published_shading()})
         for (double theta = 0; theta <= 180; theta += 5)
@@ -182,13 +183,22 @@ TEST(Translucency, CanBeInterpolatedBetweenVertices)
 TEST(Translucency, PaperDistanceReproducesThePapersSetUp)
 {
     // A head 0.22 m wide with its light at 0.2 m has the proportions of the paper.
-    const optics::DistanceMap same = optics::paper_distance(0.22, 0.2);
-    EXPECT_NEAR(same.offset, 0, 1e-12);
-    EXPECT_NEAR(same.scale * 0.2, 2, 1e-12);
-    // The same head lit from 1 m: its middle is still at 2, its extent still 2.2.
-    const optics::DistanceMap far = optics::paper_distance(0.22, 1);
-    EXPECT_NEAR(far.scale * 1 + far.offset, 2, 1e-12);
-    EXPECT_NEAR(far.scale * (1.11 - 0.89), 2.2, 1e-12);
+    EXPECT_NEAR(optics::paper_units_per_m(0.22) * 0.2, 2, 1e-12);
+}
+
+TEST(Translucency, FallsWithTheDistanceOfTheLight)
+{
+    // A point of a head 0.22 m wide that faces away from the light gets the translucent term alone.
+    const auto term = [](double distance_m) {
+        optics::Light light;
+        light.kind = optics::LightKind::PointWithoutFalloff;
+        light.position = {0, 0, -distance_m};
+        light.paper_units_per_m = optics::paper_units_per_m(0.22);
+        return optics::shade(optics::published_shading(), light, {}, 1)[0];
+    };
+    EXPECT_NEAR(term(0.2), 0.7 * std::pow(0.2 * 2 + 0.75, -10), 1e-12);
+    EXPECT_NEAR(term(1), 0.7 * std::pow(0.2 * 10 + 0.75, -10), 1e-12);
+    EXPECT_GT(term(0.15), 1000 * term(2)); // was 1.04
 }
 
 TEST(Blend, PublishedDoesNotReachTheSkinColour)
@@ -271,7 +281,7 @@ TEST(Shade, ShadowLeavesOnlyTheTranslucentTerm)
 {
     optics::Light light;
     light.position = {0, 0, 0.2};
-    light.translucency_distance = optics::paper_distance(0.22, 0.2);
+    light.paper_units_per_m = optics::paper_units_per_m(0.22);
     const optics::ShadedPoint point;
     const optics::Shading shading;
     EXPECT_NEAR(optics::shade(shading, light, point, 0)[0], 0.7 * optics::translucency(shading, 2), 1e-12);
@@ -360,7 +370,7 @@ TEST(ShadingInput, ReachableDistancesSpanTheBoundingSphere)
 {
     optics::Light light;
     light.position = {0, 0, 0.2};
-    light.translucency_distance = optics::paper_distance(0.22, 0.2);
+    light.paper_units_per_m = optics::paper_units_per_m(0.22);
     const optics::DistanceRange range = optics::translucency_distances(light, {0, 0, 0}, 0.11);
     EXPECT_NEAR(range.min, 0.9, 1e-12);
     EXPECT_NEAR(range.max, 3.1, 1e-12);
@@ -384,5 +394,5 @@ TEST(ShadingInput, BadLightsAreRefused)
         l.kind = optics::LightKind::Directional;
         l.direction = {0, 0, 0};
     });
-    refused([](optics::Light& l) { l.translucency_distance.scale = -1; });
+    refused([](optics::Light& l) { l.paper_units_per_m = -1; });
 }

@@ -30,7 +30,7 @@ class ReflectanceLutTest : public gpu_test::Test
 
 constexpr double last_day = 30;
 constexpr optics::ReflectanceModel shader_models[] = {
-    optics::ReflectanceModel::Published,   optics::ReflectanceModel::Clamped,
+    optics::ReflectanceModel::Printed,     optics::ReflectanceModel::Published,
     optics::ReflectanceModel::Exponential, optics::ReflectanceModel::TwoStreamPaper,
     optics::ReflectanceModel::TwoStream,   optics::ReflectanceModel::Calibrated};
 
@@ -107,8 +107,9 @@ void expect_table(const cv::Mat4f& table, const std::vector<optics::TissueDay>& 
         for (int x = 0; x < table.cols; ++x) {
             const float injury = shared::lut_value(static_cast<float>(x), static_cast<float>(table.cols),
                                                    tissue.parameters.axes.deepest_mm);
-            const base::Color color =
-                optics::tissue_color(optics::layers_at(rows[static_cast<std::size_t>(y)], injury), model);
+            const base::Color color = optics::tissue_color(
+                optics::layers_at(rows[static_cast<std::size_t>(y)], injury, optics::is_the_papers(model)),
+                model);
             for (int c = 0; c < 3; ++c) {
                 const double want = expected(color[c]);
                 const double got = table(y, x)[c];
@@ -127,7 +128,7 @@ TEST_F(ReflectanceLutTest, EqualsTheReferenceOnRandomTissue)
         const std::vector<optics::TissueDay> rows = random.rows(200, {.2, 1, .5, 4}, 1e-6, 1e3, true);
         const passes::LutTissue tissue = passes::lut_tissue(rows, last_day);
         for (optics::ReflectanceModel model :
-             {optics::ReflectanceModel::Clamped, optics::ReflectanceModel::Exponential,
+             {optics::ReflectanceModel::Published, optics::ReflectanceModel::Exponential,
               optics::ReflectanceModel::TwoStreamPaper, optics::ReflectanceModel::TwoStream,
               optics::ReflectanceModel::Calibrated})
             expect_table(bake(tissue, model), rows, tissue, model, 3e-5);
@@ -150,13 +151,13 @@ TEST_F(ReflectanceLutTest, IntegratesTheSpectrumOfChromophoreTissue)
                  optics::ReflectanceModel::Calibrated, 3e-5);
 }
 
-TEST_F(ReflectanceLutTest, PublishedModelIsAsPrintedWhereItStaysFinite)
+TEST_F(ReflectanceLutTest, PrintedModelEqualsTheReferenceWhereItStaysFinite)
 {
     RandomTissue random(2);
     const std::vector<optics::TissueDay> rows = random.rows(200, {.2, 1, .5, 4}, 1e-3, .2, true);
     const passes::LutTissue tissue = passes::lut_tissue(rows, last_day);
-    expect_table(bake(tissue, optics::ReflectanceModel::Published), rows, tissue,
-                 optics::ReflectanceModel::Published, 3e-5);
+    expect_table(bake(tissue, optics::ReflectanceModel::Printed), rows, tissue,
+                 optics::ReflectanceModel::Printed, 3e-5);
 }
 
 TEST_F(ReflectanceLutTest, IsFiniteAndNotNegativeAtEveryExtreme)
@@ -171,9 +172,9 @@ TEST_F(ReflectanceLutTest, IsFiniteAndNotNegativeAtEveryExtreme)
             for (const cv::Vec4f& texel : table)
                 for (int c = 0; c < 3; ++c)
                     ASSERT_TRUE(texel[c] >= 0 &&
-                                texel[c] <= (model == optics::ReflectanceModel::Published ? 65504.f : 1.f))
+                                texel[c] <= (model == optics::ReflectanceModel::Printed ? 65504.f : 1.f))
                         << optics::name(model);
-            if (model != optics::ReflectanceModel::Published)
+            if (model != optics::ReflectanceModel::Printed)
                 expect_table(table, rows, tissue, model, 3e-5);
         }
     }
@@ -197,7 +198,7 @@ TEST_F(ReflectanceLutTest, EqualsTheReferenceAtAllCorners)
                     }
     const passes::LutTissue tissue = passes::lut_tissue(rows, last_day);
     for (optics::ReflectanceModel model :
-         {optics::ReflectanceModel::Clamped, optics::ReflectanceModel::Exponential,
+         {optics::ReflectanceModel::Published, optics::ReflectanceModel::Exponential,
           optics::ReflectanceModel::TwoStreamPaper, optics::ReflectanceModel::TwoStream,
           optics::ReflectanceModel::Calibrated})
         expect_table(bake(tissue, model, 2), rows, tissue, model, 3e-5);

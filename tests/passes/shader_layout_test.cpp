@@ -75,8 +75,7 @@ TEST(ShaderLayout, Shading)
                                 {CICATRIX_MEMBER(Light, position), CICATRIX_MEMBER(Light, kind),
                                  CICATRIX_MEMBER(Light, direction),
                                  CICATRIX_MEMBER(Light, reference_distance), CICATRIX_MEMBER(Light, strength),
-                                 CICATRIX_MEMBER(Light, distance_scale),
-                                 CICATRIX_MEMBER(Light, distance_offset)});
+                                 CICATRIX_MEMBER(Light, distance_scale)});
         gpu_test::expect_layout(stage, "Lighting", sizeof(Lighting),
                                 {CICATRIX_MEMBER(Lighting, count), CICATRIX_MEMBER(Lighting, light)});
     }

@@ -286,7 +286,7 @@ TEST_F(ShadingOnGpu, WholeEquationEqualsTheReference)
         light.direction = cv::normalize(light.position);
         light.strength = {unit(random), 2 * unit(random), 3 * unit(random)};
         light.reference_distance_m = 0.2 + unit(random);
-        light.translucency_distance = optics::paper_distance(0.2, light.reference_distance_m);
+        light.paper_units_per_m = optics::paper_units_per_m(0.2 + unit(random));
 
         ShadingCase c{};
         c.formula = shared::FORMULA_SHADE;
@@ -358,6 +358,5 @@ TEST_F(ShadingOnGpu, SharedStructsHaveTheSameLayoutInBothLanguages)
     gpu_test::expect_layout("shading_test.comp", "Light", sizeof(Light),
                             {CICATRIX_MEMBER(Light, position), CICATRIX_MEMBER(Light, kind),
                              CICATRIX_MEMBER(Light, direction), CICATRIX_MEMBER(Light, reference_distance),
-                             CICATRIX_MEMBER(Light, strength), CICATRIX_MEMBER(Light, distance_scale),
-                             CICATRIX_MEMBER(Light, distance_offset)});
+                             CICATRIX_MEMBER(Light, strength), CICATRIX_MEMBER(Light, distance_scale)});
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <optional>
 
 #include "head/albedo_under.hpp"
 #include "head/vectors.hpp"
@@ -175,14 +176,15 @@ Difference compare_color(Scene& scene, const wound::WoundDay& today, const wound
     });
 }
 
-/// For light from one side: only the diffuse term or only the highlight.
-optics::Shading lit(bool highlight)
+/// For light from one side: only the diffuse term, or only the highlight of a model.
+optics::Shading lit(std::optional<optics::WardModel> highlight)
 {
     optics::Shading shading = optics::skin_shading();
     shading.ambient = {0, 0, 0};
     shading.translucency = shading.shadow = false;
     shading.lambert = !highlight;
-    shading.ward = highlight;
+    shading.ward = highlight.has_value();
+    shading.ward_model = highlight.value_or(shading.ward_model);
     shading.rho_ts = 0;
     shading.rho_s = highlight ? 1 : 0;
     return shading;
@@ -198,8 +200,8 @@ base::Color lit_radiance(const wound::SkinPoint& skin, const optics::Shading& sh
                                               bitangent[2], n[0], n[1], n[2]},
                                     .to_viewer = cv::normalize(cv::Vec3d(0, 0, distance_m) - position),
                                     .albedo = shading.ward ? base::Color(0, 0, 0) : skin.albedo};
-    return optics::shade(wound::with_gloss(shading, skin), light, point, 1) *
-           (shading.ward ? skin.occlusion : 1);
+    const bool dimmed = shading.ward && shading.ward_model != optics::WardModel::Published;
+    return optics::shade(wound::with_gloss(shading, skin), light, point, 1) * (dimmed ? skin.occlusion : 1);
 }
 
 using SkinBlendOnGpu = gpu_test::Test;
@@ -225,9 +227,9 @@ TEST_F(SkinBlendOnGpu, ColorAndOcclusionEqualThoseOfTheCpu)
         }
 }
 
-// Diffuse light depends on albedo and normal; the highlight on normal, occlusion, wetness and tautness. The
-// highlight is as bright as 3 and follows the slope, which is a difference of depths in half floats and off
-// by .01 in places (wound_texture_test.cpp).
+// Diffuse light depends on albedo and normal; the highlight on normal, occlusion, wetness and tautness, that
+// of the published model on the normal alone. The highlight is as bright as 3 and follows the slope, which is
+// a difference of depths in half floats and off by .01 in places (wound_texture_test.cpp).
 TEST_F(SkinBlendOnGpu, DiffuseLightAndHighlightEqualThoseOfTheCpu)
 {
     const optics::Light light{.kind = optics::LightKind::Directional,
@@ -240,15 +242,19 @@ TEST_F(SkinBlendOnGpu, DiffuseLightAndHighlightEqualThoseOfTheCpu)
             const wound::WoundDay today = wound::wound_at(scene.prepared, scene.healing, day);
             const wound::DayMaps maps = scene.maps_on(today);
             const wound::WoundLook look = scene.look(today, maps);
-            for (const bool highlight : {false, true}) {
+            for (const auto highlight : {std::optional<optics::WardModel>(),
+                                         {optics::WardModel::Bounded},
+                                         {optics::WardModel::Published}})
+            {
                 const optics::Shading shading = lit(highlight);
                 const Difference found = compare(scene.draw(today, shading, {light}), [&](int x, int y) {
                     const wound::SkinPoint skin =
                         wound::with_wound({own_albedo, mapped}, look, scene.place(x, y), shading.blend_model);
                     return lit_radiance(skin, shading, light, head::to_cv(scene.position(x, y)));
                 });
-                const std::string where = fmt::format("model {}, day {}, {}", int(model), day,
-                                                      highlight ? "highlight" : "diffuse light");
+                const std::string where =
+                    fmt::format("model {}, day {}, {}", int(model), day,
+                                highlight ? fmt::format("highlight {}", int(*highlight)) : "diffuse light");
                 EXPECT_LT(found.largest, highlight ? .05 : of_color.largest) << where;
                 EXPECT_LT(found.mean, highlight ? 5e-4 : of_color.mean) << where;
             }

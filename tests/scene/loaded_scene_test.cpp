@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "base/input_error.hpp"
+#include "head/vectors.hpp"
 #include "scene/loaded_scene.hpp"
 #include "tests/support/small_head.hpp"
 
@@ -38,6 +39,47 @@ TEST(LoadedScene, PlacesWoundsWhereACameraSeesThem)
     EXPECT_LT(glm::distance(*seen, loaded.wounds[0].anchor.centre), 5e-3);
     const cv::Mat1f surface = loaded.surface_mm2(0);
     EXPECT_EQ(surface.size(), loaded.wounds[0].region.size());
+}
+
+TEST(LoadedScene, PublishedModeTakesTableOneAtThePlaceAndSaysWhatItLimits)
+{
+    scene::Scene scene = small::scene(small::head());
+    scene.wounds.resize(3);
+    scene.wounds[1].place = std::string("nose");
+    scene.wounds[2] = scene.wounds[1];
+    scene::make_published(scene);
+    const scene::LoadedScene loaded = scene::load(scene);
+    const auto dermis_mm = [&](std::size_t i) {
+        return std::get<optics::SkinLayers>(loaded.tissue_at(loaded.wounds.at(i))).layers.at(1).thickness_mm;
+    };
+    EXPECT_GT(dermis_mm(1), dermis_mm(0) + .1);
+    EXPECT_FALSE(loaded.same_tissue(loaded.wounds[0], loaded.wounds[1]));
+    EXPECT_TRUE(loaded.same_tissue(loaded.wounds[1], loaded.wounds[2]));
+    ASSERT_EQ(loaded.notes.size(), 2u) << "one per thickness";
+    EXPECT_THAT(loaded.notes[0], testing::AllOf(testing::StartsWith("wound 1: "),
+                                                testing::HasSubstr("published takes the limit"),
+                                                testing::HasSubstr("epidermis 0.2 mm: G 0.188, B 0.162")));
+    EXPECT_THAT(loaded.notes[1], testing::StartsWith("wound 2: "));
+    scene.tissue = "light";
+    scene.reflectance_model = optics::ReflectanceModel::Calibrated;
+    const scene::LoadedScene corrected = scene::load(scene);
+    EXPECT_TRUE(corrected.notes.empty());
+    EXPECT_TRUE(corrected.same_tissue(corrected.wounds[0], corrected.wounds[1]));
+}
+
+TEST(LoadedScene, PublishedLightIsAtThePapersDistanceAndAMovedLightIsNot)
+{
+    scene::Scene scene = small::scene(small::head());
+    scene::make_published(scene);
+    const auto d = [&](double distance_m) {
+        scene.lights[0].distance_m = distance_m;
+        const scene::LoadedScene loaded = scene::load(scene);
+        return loaded.lights[0].paper_units_per_m *
+               cv::norm(loaded.lights[0].position - head::to_cv(scene::face_middle(loaded.head->face)));
+    };
+    const double published_m = scene.lights[0].distance_m;
+    EXPECT_NEAR(d(published_m), optics::paper_light_distance, .7) << "exact for a head of the default's size";
+    EXPECT_NEAR(d(4 * published_m), 4 * d(published_m), 1e-9);
 }
 
 TEST(LoadedScene, ErrorsSayWhyASceneCannotBeLoaded)

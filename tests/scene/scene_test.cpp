@@ -1,4 +1,5 @@
 // The scene file and the options that override it.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -84,7 +85,7 @@ TEST_F(SceneFile, WhatIsWrittenReadsBackAsTheSameScene)
     scene.wounds[1].photo = folder_ / "other.jpg";
     scene.wounds[1].segmentation = {cv::Point(3, 4), cv::Rect(1, 2, 30, 40)};
     scene.wounds[2].healing = {{0.05, 1.2, -0.1, 0}, wound::HealingModel::Contraction, 0.3};
-    scene.reflectance_model = optics::ReflectanceModel::Clamped;
+    scene.reflectance_model = optics::ReflectanceModel::Published;
     scene.shading = optics::published_shading();
     scene.shading.ambient = base::Color(0.25f, 0.5f, 0.75f);
     scene.lights.resize(1);
@@ -97,6 +98,17 @@ TEST_F(SceneFile, WhatIsWrittenReadsBackAsTheSameScene)
     scene.days = {0, 5, 5, 12.25};
     const json written = scene::to_json(scene);
     EXPECT_EQ(scene::to_json(read(written.dump())), written);
+}
+
+TEST_F(SceneFile, ReflectanceModelKeepsItsEarlierName)
+{
+    const auto model = [&](const char* name) {
+        return read(fmt::format(R"({{"reflectance_model": "{}"}})", name)).reflectance_model;
+    };
+    EXPECT_EQ(model("published"), optics::ReflectanceModel::Published);
+    EXPECT_EQ(model("clamped"), optics::ReflectanceModel::Published);
+    EXPECT_EQ(model("printed"), optics::ReflectanceModel::Printed);
+    EXPECT_THAT(refused(R"({"reflectance_model": "clampt"})"), HasSubstr("/reflectance_model"));
 }
 
 TEST_F(SceneFile, RelativePathsStartAtTheFolderOfTheScene)

@@ -38,7 +38,8 @@ vec3 paper(ReflectanceCase c, float first_surface)
         incoming *= transmitted;
     }
     float diffuse = paper_top_factor(int(c.model), c.n_above, layers[c.first].n) * sum.x;
-    return vec3(first_surface + diffuse, diffuse, (1.0 - first_surface) * incoming.x);
+    float entering = c.model <= REFLECTANCE_PUBLISHED ? 1.0 : 1.0 - first_surface; // eq. (2) has no first surface
+    return vec3(first_surface + diffuse, diffuse, entering * incoming.x);
 }
 
 void main()

@@ -103,6 +103,16 @@ TEST_F(Frame, RerunsOnlyPassesThatAChangeAffects)
     EXPECT_EQ(unshadowed.passes.size(), 6u) << "no shadow pass is declared, and the labels are culled";
 }
 
+TEST_F(Frame, HeadWithoutANormalMapIsNotTilted)
+{
+    scene::Scene scene = small::scene(small::wall({.5f, .4f, .3f}), 128);
+    scene.wounds.clear();
+    Studio studio(scene);
+    const cv::Mat4b mapped = studio.picture(0);
+    studio.shading.normal_map = false;
+    EXPECT_EQ(cv::norm(mapped, studio.picture(0), cv::NORM_INF), 0);
+}
+
 TEST_F(Frame, TakesANumericalReflectanceTableFromTheCpu)
 {
     const TemporaryFolder cache;

@@ -17,7 +17,7 @@ inline constexpr optics::ReflectanceModel two_streams[] = {optics::ReflectanceMo
                                                            optics::ReflectanceModel::Calibrated};
 inline constexpr optics::ReflectanceModel bounded[] = {
     optics::ReflectanceModel::TwoStream, optics::ReflectanceModel::TwoStreamPaper,
-    optics::ReflectanceModel::Calibrated, optics::ReflectanceModel::Clamped,
+    optics::ReflectanceModel::Calibrated, optics::ReflectanceModel::Published,
     optics::ReflectanceModel::Exponential};
 
 /// Quantities of a layer that may be zero; results must be continuous where each one goes to zero.

@@ -162,35 +162,42 @@ TEST_F(Commands, ReflectPrintsOneObjectWithAllFields)
     EXPECT_EQ(json.at("standard_error"), 0);
     EXPECT_EQ(json.at("layers"), nlohmann::json({"slab"}));
     EXPECT_EQ(notes.str(), "");
-    options = {.tissue = "table1", .model = optics::ReflectanceModel::Published};
-    out.str("");
-    reflect_command::reflect(options, out, notes);
-    const auto published = nlohmann::json::parse(out.str());
-    EXPECT_EQ(published.at("r").size(), 3u);
-    EXPECT_EQ(published.at("absorbed").size(), 3u);
-    EXPECT_EQ(published.at("outside_domain").size(), 5u);
-    EXPECT_EQ(published.at("layers"), nlohmann::json({"epidermis", "dermis", "subcutis"}));
-    EXPECT_THAT(notes.str(), testing::HasSubstr("5 of 9 layers and channels"));
+    for (const auto& [model, list] : {std::pair{optics::ReflectanceModel::Printed, "outside_domain"},
+                                      {optics::ReflectanceModel::Published, "limited"}})
+    {
+        options = {.tissue = "table1", .model = model};
+        out.str("");
+        notes.str("");
+        reflect_command::reflect(options, out, notes);
+        const auto paper = nlohmann::json::parse(out.str());
+        EXPECT_EQ(paper.at("r").size(), 3u);
+        EXPECT_EQ(paper.at("absorbed").size(), 3u);
+        ASSERT_EQ(paper.at(list).size(), 5u);
+        EXPECT_EQ(paper.at(list).at(0).at("layer"), "epidermis");
+        EXPECT_EQ(paper.at(list).at(0).at("channel"), 1);
+        EXPECT_EQ(paper.at("layers"), nlohmann::json({"epidermis", "dermis", "subcutis"}));
+        EXPECT_THAT(notes.str(), testing::HasSubstr("5 of 9 layers and channels"));
+    }
     options.tissue = "light";
     out.str("");
     reflect_command::reflect(options, out, notes);
     EXPECT_EQ(nlohmann::json::parse(out.str()).at("linear_rgb").size(), 3u);
 }
 
-TEST_F(Commands, AnInfiniteLayerHasNoPublishedReflectanceAndIsRefusedForWounds)
+TEST_F(Commands, AnInfiniteLayerHasNoPrintedReflectanceAndIsRefusedForWounds)
 {
     const std::string file = (path / "deep.json").string();
     std::ofstream(file) << R"({"unit":"1/mm","layers":[
         {"name":"dermis","sigma_a":1,"sigma_s":9,"n":1.4,"thickness_mm":"inf"},
         {"name":"subcutis","sigma_a":1,"sigma_s":9,"n":1.4,"thickness_mm":1}]})";
     std::ostringstream out, notes;
-    reflect_command::reflect({.tissue = file, .model = optics::ReflectanceModel::Published}, out, notes);
+    reflect_command::reflect({.tissue = file, .model = optics::ReflectanceModel::Printed}, out, notes);
     const auto json = nlohmann::json::parse(out.str());
     EXPECT_TRUE(json.at("r").is_null());
     EXPECT_EQ(json.at("outside_domain").at(0).at("thickness_mm"), "inf");
     EXPECT_THAT(notes.str(), testing::HasSubstr("infinite thickness"));
     for (const optics::ReflectanceModel model :
-         {optics::ReflectanceModel::Clamped, optics::ReflectanceModel::TwoStream,
+         {optics::ReflectanceModel::Published, optics::ReflectanceModel::TwoStream,
           optics::ReflectanceModel::AddingDoubling})
     {
         out.str("");
@@ -240,10 +247,10 @@ TEST_F(Commands, BakeWritesTablesAndPictures)
               days_to_60); // no days after the table's last
     for (const char* tissue : {"table1", "light"}) {
         options.tissue = tissue;
-        options.model = optics::ReflectanceModel::Published;
+        options.model = optics::ReflectanceModel::Printed;
         notes.str("");
         bake_command::bake(options, out, notes);
-        EXPECT_THAT(notes.str(), testing::HasSubstr("outside their domain")) << tissue;
+        EXPECT_THAT(notes.str(), testing::HasSubstr("printed goes on")) << tissue;
     }
 }
 
@@ -307,7 +314,7 @@ TEST(Compare, ModelsAreOrderedAsTheDocumentsSay)
         return std::sqrt(sum / static_cast<double>(std::size(stacks)));
     };
     const optics::ReflectanceModel worst_first[] = {
-        optics::ReflectanceModel::Published,      optics::ReflectanceModel::Clamped,
+        optics::ReflectanceModel::Printed,        optics::ReflectanceModel::Published,
         optics::ReflectanceModel::TwoStreamPaper, optics::ReflectanceModel::Exponential,
         optics::ReflectanceModel::TwoStream,      optics::ReflectanceModel::Calibrated};
     double before = std::numeric_limits<double>::infinity();

@@ -44,6 +44,34 @@ TEST(Tissue, ThicknessFollowsPublishedOrderAndIsSymmetric)
     EXPECT_TRUE(far.dermis > .7 && far.dermis < 2 && far.subcutis > 0 && far.subcutis <= 9);
 }
 
+TEST(Tissue, TableOneHasThePlacesThicknessWithinItsRanges)
+{
+    const auto layers = [](cv::Point2d face) {
+        const auto tissue =
+            wound::at_place(*optics::healing_tissue_named("table1"), wound::tissue_thickness(face));
+        const auto& l = std::get<optics::SkinLayers>(tissue).layers;
+        return cv::Vec3d(l[0].thickness_mm, l[1].thickness_mm, l[2].thickness_mm);
+    };
+    const cv::Vec3d eyelid = layers({.3, .28}), cheek = layers({.5, -.1}), nose = layers({0, 0});
+    EXPECT_EQ(eyelid, cv::Vec3d(.2, 1, 4)) << "thinner than Table 1 allows";
+    EXPECT_DOUBLE_EQ(cheek[1], wound::tissue_thickness({.5, -.1}).dermis);
+    EXPECT_GT(nose[1], cheek[1]);
+    EXPECT_GT(cheek[2], 7);
+    for (double x = 0; x <= 1; x += .1)
+        for (double y = -1; y <= 1; y += .1) {
+            const cv::Vec3d here = layers({x, y});
+            EXPECT_EQ(here[0], .2);
+            EXPECT_TRUE(here[1] >= 1 && here[1] <= 4 && here[2] >= 4 && here[2] <= 9) << here;
+        }
+    // Layers that were given otherwise stay.
+    const auto file = wound::at_place(optics::table1(.1, 2, 3), wound::tissue_thickness({0, 0}));
+    EXPECT_EQ(std::get<optics::SkinLayers>(file).layers[1].thickness_mm, 2);
+    EXPECT_EQ(std::get<optics::ChromophoreSkin>(
+                  wound::at_place(optics::skin(optics::SkinTone::Light), wound::tissue_thickness({0, 0})))
+                  .dermis_mm,
+              1.8);
+}
+
 TEST(Tissue, HueGivesTheLayer)
 {
     const cv::Vec3f skin = lab(skin_rgb);
@@ -68,7 +96,7 @@ TEST(Depth, RedBedIsAsDeepAsTheDermisWithSteepWallsAndFlatFloor)
     EXPECT_GT(middle, .2 + .5 * options.tissue.dermis);
     EXPECT_LT(middle, .2 + options.tissue.dermis + options.tissue.subcutis);
     const int edge = map_size / 2 + static_cast<int>(.45 * map_size / 2); // the last texel inside
-    EXPECT_NEAR(depth(map_size / 2, edge - 30), middle, .1 * middle);  // floor
+    EXPECT_NEAR(depth(map_size / 2, edge - 30), middle, .1 * middle);     // floor
     EXPECT_LT(depth(map_size / 2, edge), .2 * middle); // wall: all of it within .8 mm, which is 3.4 texels
     EXPECT_GT(depth(map_size / 2, edge - 5), .9 * middle);
 }
@@ -94,7 +122,8 @@ TEST(Depth, ScalesWithTheTissueAtThePlace)
     thin.tissue = wound::tissue_thickness({.3, .28});
     thick.tissue = wound::tissue_thickness({0, 0});
     const auto at_middle = [&](const wound::DepthOptions& options) {
-        return wound::depth_map(painted(mask, blood_color), mask, patch_width_mm, options)(map_size / 2, map_size / 2);
+        return wound::depth_map(painted(mask, blood_color), mask, patch_width_mm, options)(map_size / 2,
+                                                                                           map_size / 2);
     };
     EXPECT_LT(at_middle(thin), .75F * at_middle(thick));
 }
@@ -103,7 +132,8 @@ TEST(Depth, DeeperHuesAreDeeper)
 {
     const cv::Mat1f mask = disk(.4);
     cv::Mat3f color = painted(mask, {.55F, .27F, .21F}); // a graze,
-    cv::circle(color, {map_size / 2 - 20, map_size / 2}, 14, cv::Scalar(blood_color[0], blood_color[1], blood_color[2]),
+    cv::circle(color, {map_size / 2 - 20, map_size / 2}, 14,
+               cv::Scalar(blood_color[0], blood_color[1], blood_color[2]),
                cv::FILLED); // bleeding on the left
     const cv::Mat1f depth = wound::depth_map(color, mask, patch_width_mm, {});
     EXPECT_GT(depth(map_size / 2, map_size / 2 - 20), 1.5F * depth(map_size / 2, map_size / 2 + 28));

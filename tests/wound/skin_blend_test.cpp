@@ -98,6 +98,8 @@ TEST(SkinBlend, IsTheWoundsOwnColorOnDayZeroAndTheSkinWhenHealed)
     EXPECT_LT(cv::norm(fresh.albedo - base::Color(texture[0], texture[1], texture[2])), 1e-9);
     EXPECT_EQ(fresh.wetness, 1);
     EXPECT_LT(wound::with_gloss(optics::skin_shading(), fresh).alpha_x, optics::skin_shading().alpha_x);
+    EXPECT_EQ(wound::with_gloss(optics::published_shading(), fresh), optics::published_shading())
+        << "eq. (7) alone";
     wound.on(365);
     EXPECT_LT(cv::norm(wound.seen(place({0, 0})).albedo - own), 1e-6);
     EXPECT_LT(wound.seen(place({0, 0})).wetness, 1e-6);

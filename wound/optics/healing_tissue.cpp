@@ -22,7 +22,7 @@ double deepest_injury_mm(const SkinLayers& intact)
     return depth;
 }
 
-SkinLayers layers_at(const TissueDay& day, double injury_depth_mm)
+SkinLayers layers_at(const TissueDay& day, double injury_depth_mm, bool keep_indices)
 {
     const double injury = std::clamp(injury_depth_mm, 0.0, deepest_injury_mm(day.intact));
     SkinLayers result{.layers = {}, .n_above = day.intact.n_above, .n_below = day.intact.n_below};
@@ -42,9 +42,7 @@ SkinLayers layers_at(const TissueDay& day, double injury_depth_mm)
         removed -= std::min(removed, whole);
         if (layer.thickness_mm <= 0 && i + 1 < day.intact.layers.size())
             continue;
-        // Over the last quarter of a layer's thickness its index blends into that of the layer beneath;
-        // otherwise the colour would jump when the layer vanishes.
-        if (i + 1 < day.intact.layers.size()) {
+        if (!keep_indices && i + 1 < day.intact.layers.size()) {
             const double share = std::min(1.0, 4 * layer.thickness_mm / whole);
             layer.n = share * layer.n + (1 - share) * day.intact.layers[i + 1].n;
         }

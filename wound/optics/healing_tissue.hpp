@@ -23,7 +23,11 @@ TissueDay restored_skin(const SkinLayers& intact, double depth_scale);
 /// Layers from the top down under an injury of `injury_depth_mm`, without layers of zero thickness. The cover
 /// is at most as thick as the injury is deep, so uninjured skin has none. The deepest intact layer always
 /// keeps at least half its thickness.
-SkinLayers layers_at(const TissueDay& day, double injury_depth_mm);
+///
+/// The index of a layer that is being taken away fades into that of the layer beneath, over the last quarter
+/// of its thickness, so that the colour is continuous in the depth. `keep_indices`: there is no fade, as in
+/// the paper (is_the_papers()).
+SkinLayers layers_at(const TissueDay& day, double injury_depth_mm, bool keep_indices = false);
 
 /// The depth to which layers_at() clamps an injury: all layers but the last, and half of the last (at most 5
 /// mm).

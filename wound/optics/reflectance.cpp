@@ -40,7 +40,7 @@ PaperLayer paper_layer(const LayerOptics& layer, double lower_boundary, Reflecta
         return {scattered + lower_boundary * attenuation * attenuation, attenuation * (1 - lower_boundary)};
     }
     double d = layer.thickness_mm;
-    if (model == ReflectanceModel::Clamped)
+    if (model == ReflectanceModel::Published)
         d = std::min({d, 1 / (a + s), 1e30});
     const double left = 1 - (a + s) * d;
     const double scattered = s * d * (1 - a * d + a * a * d * d / 3);
@@ -51,6 +51,9 @@ PaperLayer paper_layer(const LayerOptics& layer, double lower_boundary, Reflecta
 Response paper_response(const Stack& stack, ReflectanceModel model, double specular, DiffuseFresnel form)
 {
     const auto& layers = stack.layers;
+    // Eqs. (2) and (3) follow light that is inside already; Exponential loses what the first surface
+    // reflects.
+    const double entering = is_the_papers(model) ? 1 : 1 - specular;
     double incoming = 1, sum = 0;
     Response response;
     for (std::size_t i = 0; i < layers.size(); ++i) {
@@ -58,20 +61,17 @@ Response paper_response(const Stack& stack, ReflectanceModel model, double specu
         const PaperLayer layer = paper_layer(layers[i], boundary(layers[i].n, below, form), model);
         sum += incoming * layer.reflected;
         const double lost = incoming * (1 - layer.reflected - layer.transmitted);
-        response.absorbed.push_back((1 - specular) * lost);
+        response.absorbed.push_back(entering * lost);
         incoming *= layer.transmitted;
     }
-    // Eq. (3) weights the sum with the upper boundary's transmittance from inside. The bounded models must
-    // not use a weight above the transmittance from outside: Exponential uses that one, Clamped the smaller.
-    const double back_inside = layers.empty() ? 0 : boundary(layers.front().n, stack.n_above, form);
-    double lost_at_top = back_inside;
-    if (model == ReflectanceModel::Exponential)
-        lost_at_top = specular;
-    else if (model == ReflectanceModel::Clamped)
-        lost_at_top = std::max(back_inside, specular);
+    // Eq. (3) weights the sum with the upper boundary's transmittance from inside. Exponential uses that from
+    // outside, which keeps r + t <= 1.
+    double lost_at_top = specular;
+    if (is_the_papers(model))
+        lost_at_top = layers.empty() ? 0 : boundary(layers.front().n, stack.n_above, form);
     response.r_without_specular = (1 - lost_at_top) * sum;
     response.r = specular + response.r_without_specular;
-    response.t = (1 - specular) * incoming;
+    response.t = entering * incoming;
     return response;
 }
 
@@ -150,8 +150,8 @@ Response two_stream(const Stack& stack, ReflectanceModel model, double specular,
 
 namespace {
 constexpr std::array<std::pair<ReflectanceModel, std::string_view>, 8> names{{
+    {ReflectanceModel::Printed, "printed"},
     {ReflectanceModel::Published, "published"},
-    {ReflectanceModel::Clamped, "clamped"},
     {ReflectanceModel::Exponential, "exponential"},
     {ReflectanceModel::TwoStreamPaper, "two-stream-paper"},
     {ReflectanceModel::TwoStream, "two-stream"},

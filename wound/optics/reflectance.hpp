@@ -16,9 +16,10 @@ namespace optics {
 
 enum class ReflectanceModel : int
 {
-    Published =
-        shared::REFLECTANCE_PUBLISHED, // eqs. (2), (3) exactly as printed; leaves 0..1 outside their domain
-    Clamped = shared::REFLECTANCE_CLAMPED,         // eqs. (2), (3), each thickness clamped to the domain
+    Printed = shared::REFLECTANCE_PRINTED, // eqs. (2), (3) at any thickness; leaves 0..1 outside their domain
+    /// Eqs. (2), (3) in the domain that the paper gives them: each layer's d, per channel, is at most
+    /// 1/(sigma_a + sigma_s' P(g)). outside_domain() lists the layers that this limits.
+    Published = shared::REFLECTANCE_PUBLISHED,
     Exponential = shared::REFLECTANCE_EXPONENTIAL, // eqs. (2), (3), exponential instead of linear attenuation
     TwoStreamPaper = shared::REFLECTANCE_TWO_STREAM_PAPER, // Kubelka-Munk layers with the paper's S = P
                                                            // sigma_s', K = sigma_a; adding
@@ -69,14 +70,20 @@ struct Response
     double r = 0;                  // all reflected light
     double r_without_specular = 0; // r minus specular_reflectance()
     double t = 0;                  // transmitted into the medium below
-    std::vector<double> absorbed =
-        {};                    // per layer; first three models: what is neither reflected nor transmitted
+    /// Per layer. The first three models: what is neither reflected nor transmitted. Of Printed and Published
+    /// both t and this are shares of the light inside the skin, as T of eq. (2) is.
+    std::vector<double> absorbed = {};
     double standard_error = 0; // of r; 0 for deterministic models
 };
 
 /// All models, from the crudest to the reference.
 std::span<const ReflectanceModel> all_reflectance_models();
-/// Name on the command line and in JSON: "published", "clamped", "exponential", "two-stream-paper",
+/// Whether the model is eqs. (2) and (3) themselves: Printed and Published. Nothing of ours is added to them.
+constexpr bool is_the_papers(ReflectanceModel model)
+{
+    return model <= ReflectanceModel::Published;
+}
+/// Name on the command line and in JSON: "printed", "published", "exponential", "two-stream-paper",
 /// "two-stream", ...
 std::string_view name(ReflectanceModel model);
 /// Throws base::InputError that lists the known names.
@@ -85,7 +92,8 @@ ReflectanceModel reflectance_model_named(std::string_view name);
 /// Guarantees for sigma in 0..1e6, thickness in 0..1e9 or infinite, n in 1..3, g in -1..1:
 /// TwoStreamPaper, TwoStream, Calibrated: 0 <= r, t; r + t <= 1 (rounding: 1e-14); r + t = 1 without
 /// absorption, within 1e-12; splitting a layer in two changes nothing. AddingDoubling: the same with r + t <=
-/// 1 within 1e-11 and a split layer within 1e-9. Clamped, Exponential: the bounds only. Published: none.
+/// 1 within 1e-11 and a split layer within 1e-9. Exponential: the bounds only. Published: the bounds, of
+/// r_without_specular and t. Printed: none.
 Response reflectance(const Stack& stack, ReflectanceModel model, const ReflectanceOptions& options = {});
 
 /// Reflectance of the first surface alone.
@@ -95,7 +103,7 @@ double specular_reflectance(const Stack& stack, const ReflectanceOptions& option
 std::vector<double> diffuse_color(const SkinLayers& tissue, ReflectanceModel model,
                                   const ReflectanceOptions& options = {});
 
-/// A layer that is thicker than the domain of the printed equations, so that T(d) < 0.
+/// A layer that is thicker than the domain of eqs. (2) and (3), so that T(d) < 0 unless d is limited.
 struct OutsideDomain
 {
     std::size_t layer, channel;

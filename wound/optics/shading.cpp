@@ -13,7 +13,6 @@ namespace {
 using std::numbers::pi;
 
 constexpr double smallest_slope = 1e-4, largest_slope = 1.5;
-constexpr double paper_width = 2.2, paper_light_distance = 2;
 
 void require(bool good, std::string_view where, std::string_view field, std::string_view what,
              std::string_view cure)
@@ -69,10 +68,9 @@ Shading skin_shading()
     return shading;
 }
 
-DistanceMap paper_distance(double object_width_m, double light_distance_m)
+double paper_units_per_m(double object_width_m)
 {
-    const double scale = paper_width / object_width_m;
-    return {scale, paper_light_distance - scale * light_distance_m};
+    return paper_width / object_width_m;
 }
 
 DistanceRange translucency_distances(const Light& light, const cv::Vec3d& center, double radius_m)
@@ -80,10 +78,8 @@ DistanceRange translucency_distances(const Light& light, const cv::Vec3d& center
     const cv::Vec3d to_light = light.position - center;
     const double distance =
         light.kind == LightKind::Directional ? to_light.dot(light.direction) : cv::norm(to_light);
-    const auto paper = [&](double metres) {
-        return std::max(0.0, light.translucency_distance.scale * metres + light.translucency_distance.offset);
-    };
-    return {paper(std::max(0.0, distance - radius_m)), paper(distance + radius_m)};
+    const auto paper = [&](double metres) { return light.paper_units_per_m * std::max(0.0, metres); };
+    return {paper(distance - radius_m), paper(distance + radius_m)};
 }
 
 void check_shading(const Shading& shading, const DistanceRange& reachable, std::string_view where)
@@ -111,8 +107,7 @@ void check_light(const Light& light, std::string_view where)
     for (double channel : light.strength.val)
         require_within(channel, 0, 1e4, where, "strength");
     require_within(light.reference_distance_m, 1e-3, 1e3, where, "reference_distance_m");
-    require_within(light.translucency_distance.scale, 0, 1e6, where, "translucency_distance/scale");
-    require_within(light.translucency_distance.offset, -1e9, 1e9, where, "translucency_distance/offset");
+    require_within(light.paper_units_per_m, 0, 1e6, where, "paper_units_per_m");
     if (light.kind == LightKind::Directional)
         require(std::abs(cv::norm(light.direction) - 1) < 1e-6, where, "direction", "not of unit length",
                 "give a direction other than 0 0 0, normalised");
@@ -213,8 +208,7 @@ base::Color shade(const Shading& shading, const Light& light, const ShadedPoint&
     const LightSample sample = sample_light(light, point.position);
     const cv::Vec3d incident = point.frame * sample.direction, outgoing = point.frame * point.to_viewer;
     const double cosine = std::max(0.0, incident[2]);
-    const DistanceMap& map = light.translucency_distance;
-    const double d = std::max(0.0, map.scale * std::max(0.0, sample.distance_m) + map.offset);
+    const double d = light.paper_units_per_m * std::max(0.0, sample.distance_m);
 
     const base::Color direct = visibility * cosine * sample.strength;
     const double specular =

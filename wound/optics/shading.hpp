@@ -66,16 +66,11 @@ Shading published_shading();
 /// incidence); the paper's .8 looks like glazed china.
 Shading skin_shading();
 
-/// Converts metres to the d of eq. (6): max(0, scale * metres + offset). In the paper's unit of length the
-/// object is 2.2 wide and the light is at distance 2.
-struct DistanceMap
-{
-    double scale = 1; // paper's units per metre
-    double offset = 0;
-};
-/// Maps an object of this width, and a light at this distance from its middle, to the paper's set-up. The
-/// offset is 0 when width and distance have the paper's ratio.
-DistanceMap paper_distance(double object_width_m, double light_distance_m);
+/// The paper's unit of length, in which d of eq. (6) is measured: its object is 2.2 wide and its light at
+/// distance 2 from the object's middle.
+inline constexpr double paper_width = 2.2, paper_light_distance = 2;
+/// Units per metre for an object of this width, wherever its lights are.
+double paper_units_per_m(double object_width_m);
 
 enum class LightKind : std::uint32_t
 {
@@ -92,7 +87,7 @@ struct Light
     /// I: radiance of a white diffuser that faces the light at the reference distance (irradiance / pi).
     base::Color strength{1, 1, 1};
     double reference_distance_m = 1;
-    DistanceMap translucency_distance;
+    double paper_units_per_m = 1; // of the d of eq. (6)
 };
 
 /// A light as a point sees it.

@@ -209,7 +209,12 @@ struct HealingPreset
     HealingTissue (*tissue)();
 };
 constexpr std::array<HealingPreset, 4> healing_presets{{
-    {"table1", [] { return HealingTissue(table1()); }},
+    {"table1",
+     [] {
+         SkinLayers tissue = table1();
+         tissue.facial = true;
+         return HealingTissue(tissue);
+     }},
     {"light", [] { return HealingTissue(skin(SkinTone::Light)); }},
     {"medium", [] { return HealingTissue(skin(SkinTone::Medium)); }},
     {"dark", [] { return HealingTissue(skin(SkinTone::Dark)); }},

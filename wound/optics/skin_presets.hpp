@@ -54,7 +54,7 @@ struct MeasuredSkin
 };
 std::span<const MeasuredSkin> measured_skins();
 
-/// "table1", "light", "medium", "dark".
+/// "table1" (facial), "light", "medium", "dark".
 std::vector<std::string_view> healing_tissue_names();
 std::optional<HealingTissue> healing_tissue_named(std::string_view name);
 

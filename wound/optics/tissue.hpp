@@ -38,13 +38,17 @@ struct SkinLayers
 {
     std::vector<Layer> layers;
     double n_above = 1, n_below = 1;
+    /// Table 1 as the face has it: epidermis, dermis and subcutis are as thick as at the wound's place
+    /// (wound::at_place()); the thicknesses here are used where there is no face.
+    bool facial = false;
 
     std::size_t channels() const { return layers.empty() ? 0 : layers.front().sigma_a.size(); }
     Stack channel(std::size_t index) const;
 };
 
 /// Table 1 of Choi & Chin 2014 as printed, read as mm^-1. The paper's ranges: dermis 1..4 mm, subcutis 4..9
-/// mm. The medium below has the subcutis' index, so it reflects nothing.
+/// mm. The medium below has the subcutis' index, so it reflects nothing. Not facial: the thicknesses are
+/// given.
 SkinLayers table1(double epidermis_mm = 0.2, double dermis_mm = 1, double subcutis_mm = 4);
 
 } // namespace optics

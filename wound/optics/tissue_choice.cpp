@@ -1,7 +1,10 @@
 #include "wound/optics/tissue_choice.hpp"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fmt/ranges.h>
+#include <span>
 
 #include "base/input_error.hpp"
 #include "wound/optics/spectrum.hpp"
@@ -54,14 +57,52 @@ SkinLayers tissue_or_file(const std::string& name)
     return preset ? *preset : read_unless_missing(name, tissue_preset_names());
 }
 
-std::optional<std::string> domain_note(const SkinLayers& tissue)
+namespace {
+
+// "epidermis 0.2 mm: G 0.188, B 0.162", or for a spectrum the number of its wavelengths and the least limit.
+std::string domain_text(const SkinLayers& tissue, std::size_t layer, std::span<const OutsideDomain> outside)
 {
-    const std::size_t outside = outside_domain(tissue).size();
-    if (outside == 0)
+    constexpr std::array<const char*, 3> rgb{"R", "G", "B"};
+    const Layer& of = tissue.layers[layer];
+    std::vector<std::string> channels;
+    double least = of.thickness_mm;
+    for (const OutsideDomain& one : outside) {
+        if (one.layer != layer)
+            continue;
+        channels.push_back(tissue.channels() == rgb.size()
+                               ? fmt::format("{} {:.3g}", rgb[one.channel], one.limit_mm)
+                               : fmt::format("{:.3g}", one.limit_mm));
+        least = std::min(least, one.limit_mm);
+    }
+    if (channels.empty())
         return {};
-    return fmt::format("eqs. (2) and (3) as printed are outside their domain in {} of {} layers and "
-                       "channels: colours are wrong, often green (docs/optics.md)",
-                       outside, tissue.layers.size() * tissue.channels());
+    const std::string limits =
+        channels.size() > rgb.size()
+            ? fmt::format("{} of {} wavelengths, down to {:.3g}", channels.size(), tissue.channels(), least)
+            : fmt::format("{}", fmt::join(channels, ", "));
+    return fmt::format("{} {:.3g} mm: {}", of.name.empty() ? fmt::format("layer {}", layer + 1) : of.name,
+                       of.thickness_mm, limits);
+}
+
+} // namespace
+
+std::optional<std::string> domain_note(const SkinLayers& tissue, ReflectanceModel model)
+{
+    const std::vector<OutsideDomain> outside = outside_domain(tissue);
+    if (!is_the_papers(model) || outside.empty())
+        return {};
+    std::vector<std::string> layers;
+    for (std::size_t i = 0; i < tissue.layers.size(); ++i)
+        if (std::string text = domain_text(tissue, i, outside); !text.empty())
+            layers.push_back(std::move(text));
+    return fmt::format("eqs. (2) and (3) hold for d below 1/(sigma_a + sigma_s' P), which {} of {} layers "
+                       "and channels exceed; "
+                       "{} (docs/optics.md). Thickness and limits in mm: {}",
+                       outside.size(), tissue.layers.size() * tissue.channels(),
+                       model == ReflectanceModel::Published
+                           ? "published takes the limit for d there"
+                           : "printed goes on, and its colours are wrong, often green",
+                       fmt::join(layers, "; "));
 }
 
 SkinLayers layers_of(const HealingTissue& tissue)

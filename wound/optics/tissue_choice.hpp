@@ -15,8 +15,9 @@ HealingTissue healing_tissue_or_file(const std::string& name);
 /// Any preset, or any tissue file.
 SkinLayers tissue_or_file(const std::string& name);
 
-/// A note for the user when layers are too thick for ReflectanceModel::Published; nullopt when none is.
-std::optional<std::string> domain_note(const SkinLayers& tissue);
+/// A note for the user that names the layers and channels that are too thick for eqs. (2) and (3):
+/// ReflectanceModel::Published limits them, Printed does not. nullopt for other models, or if there are none.
+std::optional<std::string> domain_note(const SkinLayers& tissue, ReflectanceModel model);
 SkinLayers layers_of(const HealingTissue& tissue); // without an injury
 
 } // namespace optics
