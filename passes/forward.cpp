@@ -110,6 +110,7 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
     pass.constant("SHADOWS", input.shadows.casting);
     pass.constant("AMBIENT", shading.ambient != base::Color(0, 0, 0));
     pass.constant("WARD_MODEL", std::uint32_t(shading.ward_model));
+    pass.constant("SPECULAR_MODEL", std::uint32_t(shading.specular_model));
     pass.constant("TRANSLUCENCY_MODEL", std::uint32_t(shading.translucency_model));
     pass.constant("BLEND_MODEL", std::uint32_t(shading.blend_model));
     pass.uniform("View_", view);

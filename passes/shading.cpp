@@ -6,6 +6,7 @@
 
 #include "base/input_error.hpp"
 #include "head/vectors.hpp"
+#include "wound/optics/specular.hpp"
 
 namespace passes {
 
@@ -22,6 +23,9 @@ shared::ShadingParams shading_params(const optics::Shading& shading)
             static_cast<float>(std::pow(std::max(shading.translucency_bound(), 1e-9), -4)),
         .slope = glm::vec2(glm::dvec2(shading.alpha_x, shading.alpha_y)),
         .ambient = head::to_glm(shading.rho_d * shading.ambient),
+        .fresnel_scale = static_cast<float>(optics::fresnel_scale(shading)),
+        .grazing = static_cast<float>(optics::grazing_reflectance(shading)),
+        .mirrored = head::to_glm(optics::fresnel_scale(shading) * shading.ambient),
     };
 }
 

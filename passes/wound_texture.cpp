@@ -60,6 +60,7 @@ WoundTexture add_wound_texture(graph::Graph& graph, const std::string& suffix, c
 
     graph::ComputePass& relief = graph.compute("wound_relief" + suffix, "wound_relief.comp");
     relief.sample("state", texture.state);
+    relief.sample("color", texture.color);
     relief.store("relief", texture.relief);
     relief.uniform("Relief_", wound::relief_parameters(today, maps.width_mm / maps.size));
     relief.dispatch(width, height);

@@ -31,7 +31,7 @@ struct WoundTexture
     graph::ImageId color;  // rgb: linear reflectance W; a: opacity, 0 shows the face's skin
     graph::ImageId state;  // depth on day 0 in mm, r: of the open bed, g: of the injury inside the
                            // outer border; b: coverage of the open bed; a: coverage inside the border
-    graph::ImageId relief; // rg: slope of the depth along u and v, mm per mm; b: ambient occlusion, 1
+    graph::ImageId relief; // rg: slope of depth and bumps along u and v, mm per mm; b: ambient occlusion, 1
                            // open; a: depth today in mm
     shared::vec2 uv_scale{.5}, uv_offset{.5}; // uv of the images = scale * patch coordinates + offset
 };

@@ -12,7 +12,7 @@ struct Levels
     int bounces = 8; // of light from skin to skin, 0..64; 0: light comes from lights and surroundings alone
     bool ambient = true;    // the surroundings' light, with true occlusion
     bool subsurface = true; // random walk under the skin; else it is Lambertian
-    bool specular = true;   // the scene's lobe, of lights alone: surroundings and bounces are not mirrored
+    bool specular = true;   // the scene's lobes
     MediumChoice medium;
 };
 

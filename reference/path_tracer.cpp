@@ -6,6 +6,7 @@
 
 #include "head/vectors.hpp"
 #include "reference/directions.hpp"
+#include "wound/optics/specular.hpp"
 
 namespace reference {
 namespace {
@@ -41,7 +42,7 @@ Radiance PathTracer::along(const glm::dvec3& origin, const glm::dvec3& direction
         if (shading_.lambert)
             radiance.diffuse = reflected(point, normal, 0, random);
         if (shading_.ward && levels_.specular)
-            radiance.specular = specular(point, normal, to_viewer);
+            radiance.specular = specular(point, normal, to_viewer, random);
         return radiance;
     }
     return {};
@@ -51,6 +52,11 @@ double PathTracer::visible(const optics::Light& light, const optics::LightSample
                            const SurfacePoint& point) const
 {
     return !levels_.shadows || !shading_.shadow || surfaces_.reached_by(light, sample, point) ? 1 : 0;
+}
+
+base::Color PathTracer::openness(const SurfacePoint& point) const
+{
+    return optics::visibility(point.skin.skin.occlusion, shading_.rho_d * point.skin.skin.albedo);
 }
 
 base::Color PathTracer::direct(const SurfacePoint& point, const glm::dvec3& normal) const
@@ -86,7 +92,7 @@ base::Color PathTracer::flat_correction(const SurfacePoint& point, const glm::dv
     base::Color known = albedo;
     for (double& channel : known.val)
         channel = std::min(channel, AlbedoTable::largest_diffuse);
-    return (known - flat.reflected).mul(direct(point, normal) + point.skin.skin.occlusion * ambient_);
+    return (known - flat.reflected).mul(direct(point, normal) + openness(point).mul(ambient_));
 }
 
 base::Color PathTracer::by_channel(const WalkEnds& ends, Random& random) const
@@ -129,25 +135,26 @@ base::Color PathTracer::received(const SurfacePoint& point, const glm::dvec3& no
 {
     base::Color sum = direct(point, normal);
     const bool last = bounce >= levels_.bounces;
-    const double open = point.skin.skin.occlusion; // of a wound's hollow, which is in no triangle
+    const base::Color open = openness(point);
     if (last && ambient_ == black)
         return sum;
     const glm::dvec3 towards = direction_about(normal, std::sqrt(1 - random()), random());
     const std::optional<head::Hit> hit = surfaces_.met(point.lifted, towards);
     if (!hit)
-        return sum + open * ambient_;
+        return sum + open.mul(ambient_);
     if (last || !(hit->front || surfaces_.look(*hit).double_sided))
         return sum;                                                      // the inside of a bust is black
-    const double chance = std::min(1.0, 4 * open * largest(importance)); // Russian roulette
+    const double chance = std::min(1.0, 4 * largest(open.mul(importance))); // Russian roulette
     if (random() >= chance)
         return sum;
     const SurfacePoint next = surfaces_.point(*hit);
-    return sum + open / chance * reflected(next, next.normal, bounce + 1, random);
+    return sum + (1 / chance) * open.mul(reflected(next, next.normal, bounce + 1, random));
 }
 
 base::Color PathTracer::specular(const SurfacePoint& point, const glm::dvec3& normal,
-                                 const glm::dvec3& to_viewer) const
+                                 const glm::dvec3& to_viewer, Random& random) const
 {
+    const double open = point.skin.skin.occlusion; // of a wound's hollow
     optics::Shading gloss = wound::with_gloss(shading_, point.skin.skin);
     gloss.rho_s *= point.look->gloss.specular;
     gloss.alpha_x *= point.look->gloss.slope;
@@ -155,17 +162,37 @@ base::Color PathTracer::specular(const SurfacePoint& point, const glm::dvec3& no
     base::Color sum = black;
     if (gloss.rho_s <= 0)
         return sum;
+    const optics::Finish finish = wound::finish_of(point.skin.skin);
     const glm::dmat3 frame = tangent_frame(normal, point.tangent);
     const glm::dvec3 outgoing = to_viewer * frame;
     for (const optics::Light& light : scene_.lights) {
         const optics::LightSample sample = optics::sample_light(light, head::to_cv(point.at));
         const glm::dvec3 incident = head::to_glm(sample.direction) * frame;
-        const double lobe = optics::ward(gloss.ward_model, gloss.alpha_x, gloss.alpha_y,
-                                         head::to_cv(incident), head::to_cv(outgoing));
-        if (lobe > 0 && largest(sample.strength) > 0)
-            sum += gloss.rho_s * lobe * incident.z * visible(light, sample, point) * sample.strength;
+        const double lobes =
+            optics::specular(gloss, finish, head::to_cv(incident), head::to_cv(outgoing)) * open;
+        if (lobes > 0 && largest(sample.strength) > 0)
+            sum += lobes * incident.z * visible(light, sample, point) * sample.strength;
     }
-    return sum;
+    if (gloss.specular_model == optics::SpecularModel::Ward)
+        return sum;
+    const double lobe = random(), u = 1 - random(), v = random();
+    const optics::MirrorRay ray = optics::mirror_ray(gloss, finish, head::to_cv(outgoing), lobe, u, v);
+    return ray.weight > 0
+               ? sum + mirrored(point, frame * head::to_glm(ray.direction), open * ray.weight, random)
+               : sum;
+}
+
+base::Color PathTracer::mirrored(const SurfacePoint& point, const glm::dvec3& towards, double weight,
+                                 Random& random) const
+{
+    const std::optional<head::Hit> hit = surfaces_.met(point.lifted, towards);
+    if (!hit)
+        return weight * ambient_;
+    const double chance = std::min(1.0, 4 * weight); // Russian roulette
+    if (levels_.bounces == 0 || !(hit->front || surfaces_.look(*hit).double_sided) || random() >= chance)
+        return black;
+    const SurfacePoint next = surfaces_.point(*hit);
+    return weight / chance * reflected(next, next.normal, 1, random);
 }
 
 } // namespace reference

@@ -4,7 +4,8 @@
 //   diffuse   C rho_d (direct light + surroundings + light from other skin), of the point itself or, with
 //             subsurface scattering, of where a random walk from it leaves the skin. C rho_d is the diffuse
 //             albedo for all light: the surroundings' too.
-//   specular  the scene's lobe, for every light that reaches the point
+//   specular  the scene's lobes, of every light that reaches the point; with SpecularModel::Skin also of the
+//             surroundings and of the diffuse light of other skin
 //
 // Units as optics::Light has them: a light's strength is the radiance of a white diffuser that faces it, so
 // that direct light is the sum of strength x cosine, without pi.
@@ -49,8 +50,13 @@ class PathTracer
     /// space reflects on average is known: `albedo`.
     base::Color flat_correction(const SurfacePoint& point, const glm::dvec3& normal, const Medium& medium,
                                 const base::Color& albedo, std::uint64_t key) const;
-    base::Color specular(const SurfacePoint& point, const glm::dvec3& normal,
-                         const glm::dvec3& to_viewer) const;
+    base::Color specular(const SurfacePoint& point, const glm::dvec3& normal, const glm::dvec3& to_viewer,
+                         Random& random) const;
+    /// `weight` times the diffuse light that comes from `towards`.
+    base::Color mirrored(const SurfacePoint& point, const glm::dvec3& towards, double weight,
+                         Random& random) const;
+    /// What a wound's hollow, which is in no triangle, lets in of the light from all around.
+    base::Color openness(const SurfacePoint& point) const;
     /// 1 or 0.
     double visible(const optics::Light& light, const optics::LightSample& sample,
                    const SurfacePoint& point) const;

@@ -21,6 +21,7 @@ layout(constant_id = 7) const uint WARD_MODEL = WARD_BOUNDED;
 layout(constant_id = 8) const uint TRANSLUCENCY_MODEL = TRANSLUCENCY_BOUNDED;
 layout(constant_id = 9) const uint BLEND_MODEL = BLEND_CORRECTED;
 layout(constant_id = 10) const uint LIGHTS = 1;
+layout(constant_id = 11) const uint SPECULAR_MODEL = SPECULAR_SKIN;
 
 layout(location = 0) in vec3 v_position;
 layout(location = 1) in vec3 v_normal;
@@ -46,6 +47,9 @@ layout(binding = 11) uniform sampler2D reflectance_lut[MAX_WOUNDS];
 layout(binding = 12) uniform sampler2D shadow_map;
 layout(scalar, binding = 13) uniform Shadows_ { Shadow shadows[MAX_LIGHTS]; };
 
+const bool BOUNCE = AMBIENT && LAMBERT;
+const float BOUNCED_SHARE = 0.4;
+
 #define ADD_WOUND(i)                                                                                                            \
     if (WOUNDS > i)                                                                                                            \
         add_wound(BLEND_MODEL, wounds[i], wound_color[i], wound_state[i], wound_relief[i], reflectance_lut[i], v_position,     \
@@ -58,31 +62,38 @@ void main()
     const vec3 geometric = frame[2];
     const vec4 albedo = texture(albedo_map, v_uv) * part.albedo_factor;
 
-    SkinPoint skin = SkinPoint(albedo.rgb, geometric, 1, 0, 0);
+    SkinPoint skin = SkinPoint(albedo.rgb, geometric, 1, 0, 0, 0);
     if (NORMAL_MAP)
     {
         const vec3 mapped = texture(normal_map, v_uv).xyz * 2 - 1;
         skin.normal = normalize_or(frame * vec3(mapped.xy * part.normal_scale, max(mapped.z, 0.05)), geometric);
     }
-    if (AMBIENT)
-        skin.occlusion = texture(occlusion_map, v_uv).r;
+    const float open = AMBIENT ? texture(occlusion_map, v_uv).r : 1; // of the head alone
     // Unrolled by hand: indexing an array of samplers by a loop counter is ten times slower on a software
     // rasteriser.
     ADD_WOUND(0) ADD_WOUND(1) ADD_WOUND(2) ADD_WOUND(3) ADD_WOUND(4) ADD_WOUND(5) ADD_WOUND(6)
 
     frame = frame_of(bend_to_viewer(skin.normal, to_viewer), v_tangent);
     ShadingParams params = shading;
-    // A wet bed has a narrower lobe: small highlights rather than a sheen. Taut new epithelium: slightly
-    // narrower. Nothing of this, and no occlusion, is in eq. (7) as published.
-    const bool only_ward = WARD_MODEL == WARD_PUBLISHED;
-    params.slope *= part.slope * (only_ward ? 1 : (1 - 0.4 * skin.wetness) * (1 - 0.25 * skin.tautness));
-    params.rho_s *= part.specular * (only_ward ? 1 : 1 - 0.4 * skin.wetness + 0.15 * skin.tautness);
+    // Taut new epithelium has a slightly narrower lobe. Eq. (7) alone knows no film: there a wet bed has a narrower, dimmer
+    // lobe. Eq. (7) as published knows none of it, and no occlusion.
+    const bool only_ward = SPECULAR_MODEL == SPECULAR_WARD && WARD_MODEL == WARD_PUBLISHED;
+    const float wet = SPECULAR_MODEL == SPECULAR_WARD ? 0.4 * skin.wetness : 0;
+    const float gloss = part.specular * (only_ward ? 1 : 1 - wet + 0.15 * skin.tautness);
+    params.slope *= part.slope * (only_ward ? 1 : (1 - wet) * (1 - 0.25 * skin.tautness));
+    params.rho_s *= gloss;
+    params.fresnel_scale *= gloss;
+    const Finish finish = Finish(skin.wetness, skin.slope_variance);
     const vec3 local_viewer = to_viewer * frame;
-    vec3 diffuse = AMBIENT ? params.ambient * skin.occlusion : vec3(0); // times rho_d already, and the albedo C below
-    vec3 mirrored = vec3(0);
+    const vec3 visible = AMBIENT ? visibility(open * skin.occlusion, params.rho_d * skin.albedo) : vec3(0);
+    vec3 diffuse = params.ambient * visible; // times rho_d already, and the albedo C below
+    vec3 mirrored = vec3(0), bounced = vec3(0);
     for (uint i = 0; i < LIGHTS; ++i)
     {
         LightSample light = sample_light(lighting.light[i], v_position);
+        const vec3 local_light = light.direction * frame;
+        if (BOUNCE)
+            bounced += light.strength * (0.5 + 0.5 * local_light.z);
         if ((SHADOWS >> i & 1) != 0)
         {
             // The place is interpolated for two lights: to compute it per pixel doubles the cost of the pass.
@@ -95,15 +106,23 @@ void main()
             }
             light.strength *= shadow_visibility(shadow_map, place, slope);
         }
-        const vec3 local_light = light.direction * frame;
         if (LAMBERT)
             diffuse += surface_diffuse(params, light, local_light);
         if (WARD)
-            mirrored += specular(WARD_MODEL, params, light, local_light, local_viewer);
+            mirrored += light.strength * specular_times_cosine(SPECULAR_MODEL, WARD_MODEL, WOUNDS > 0, params, finish, local_light,
+                                                               local_viewer);
     }
+    if (BOUNCE)
+        diffuse += params.rho_d * params.rho_d * skin.albedo * bounced * (1 - open) * BOUNCED_SHARE;
     // Translucency is multiplied by ambient occlusion, except in the published model.
     if (TRANSLUCENCY)
-        diffuse += v_subsurface * part.translucency * (TRANSLUCENCY_MODEL == TRANSLUCENCY_PUBLISHED ? 1 : skin.occlusion);
-    const vec3 radiance = diffuse * skin.albedo + mirrored * (only_ward ? 1 : skin.occlusion);
+        diffuse += v_subsurface * part.translucency * (TRANSLUCENCY_MODEL == TRANSLUCENCY_PUBLISHED ? 1 : open * skin.occlusion);
+    // The head's own shadows dim the lights' highlights, but a wound's hollow is in no shadow map.
+    mirrored *= only_ward ? 1 : skin.occlusion;
+    if (AMBIENT && WARD && SPECULAR_MODEL == SPECULAR_SKIN)
+        mirrored += params.mirrored * (gloss * ambient_specular(params, finish, local_viewer.z) * skin.occlusion *
+                    specular_occlusion(open, local_viewer.z) *
+                    above_horizon(2 * local_viewer.z * dot(frame[2], geometric) - dot(to_viewer, geometric)));
+    const vec3 radiance = diffuse * skin.albedo + mirrored;
     out_color = vec4(finite_radiance(radiance), albedo.a);
 }

@@ -1,19 +1,37 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Computes slope and occlusion of the wound from its depth once per day, so that the forward pass samples
-// only one map.
+// Computes slope and occlusion of the wound from its depth, and the slope of the bed's bumps from its colour, once per
+// day, so that the forward pass samples only one map.
 #include "shared/wound.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D state;
 layout(binding = 1, rgba16f) uniform writeonly image2D relief;
 layout(scalar, binding = 2) uniform Relief_ { Relief params; };
+layout(binding = 3) uniform sampler2D color;
 
 float depth(ivec2 p)
 {
     const vec4 s = texelFetch(state, clamp(p, ivec2(0), textureSize(state, 0) - 1), 0);
     return params.depth_scale * s.r - params.scar_mm * max(s.a - s.b, 0);
+}
+
+// ln of the mean luminance of the four texels around a corner.
+float log_luminance(vec2 corner)
+{
+    const vec3 mean = textureLod(color, corner / vec2(textureSize(color, 0)), 0).rgb;
+    return log(max(dot(mean, vec3(0.2126, 0.7152, 0.0722)), 1e-3));
+}
+
+// The bed is as high as it is light: pits of granulation tissue are dark. As the slope of a depth.
+vec2 bump_slope(ivec2 p)
+{
+    const vec2 middle = vec2(p) + 0.5;
+    const float d = params.bump_texels;
+    const float lt = log_luminance(middle + vec2(-d, -d)), rt = log_luminance(middle + vec2(d, -d)),
+                lb = log_luminance(middle + vec2(-d, d)), rb = log_luminance(middle + vec2(d, d));
+    return params.bump_mm / (4 * d * params.texel_mm) * vec2(lt + lb - rt - rb, lt + rt - lb - rb);
 }
 
 void main()
@@ -28,7 +46,11 @@ void main()
     const float r = depth(p + ivec2(1, -1)) + 2 * depth(p + ivec2(1, 0)) + depth(p + ivec2(1, 1));
     const float t = depth(p + ivec2(-1, -1)) + 2 * depth(p + ivec2(0, -1)) + depth(p + ivec2(1, -1));
     const float b = depth(p + ivec2(-1, 1)) + 2 * depth(p + ivec2(0, 1)) + depth(p + ivec2(1, 1));
-    const vec2 slope = vec2(r - l, b - t) / (8 * params.texel_mm);
+    vec2 slope = vec2(r - l, b - t) / (8 * params.texel_mm);
+    const float bed = texelFetch(state, p, 0).b;
+    if (bed > 0 && params.bump_mm > 0)
+        slope += bed * bump_slope(p);
+    slope /= 1 + params.slope_limit * length(slope);
 
     // Horizon-based occlusion from the wound's walls in six directions. cos^2 of the horizon's elevation is
     // the cosine-weighted share of the sky that is visible in a direction's slice.

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "base/color.hpp"
 #include "base/sampling.hpp"
 
 namespace wound {
@@ -14,6 +15,10 @@ namespace wound {
 namespace {
 
 constexpr double occlusion_reach_mm = 4;
+constexpr double bump_mm = .25; // height of the bed for e times the luminance: our choice, by photographs
+constexpr double bump_reach_mm = .25; // slopes between points twice as far apart show bumps of 1 mm best
+constexpr double slope_limit =
+    .7; // no slope is steeper than 1.4, so that walls do not turn into mirrors of lights
 constexpr double soft_edge_mips = 3.5; // blurs the border of new skin by about 1 mm
 
 /// The day-0 position of a point of today.
@@ -95,7 +100,32 @@ double openness(const cv::Mat1f& depth_mm, cv::Point at, const shared::Relief& r
     return open / directions;
 }
 
-cv::Mat4f relief_of(const cv::Mat4f& state, const shared::Relief& parameters)
+/// ln of the mean luminance of the four texels around a corner of `at`, which lies towards `side` (-1 or 1
+/// each).
+double log_luminance(const cv::Mat4f& color, cv::Point at, cv::Point side, int reach)
+{
+    double sum = 0;
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i) {
+            const cv::Vec4f& texel = color(std::clamp(at.y + side.y * (reach + j), 0, color.rows - 1),
+                                           std::clamp(at.x + side.x * (reach + i), 0, color.cols - 1));
+            sum += .25 * double(base::luminance(cv::Vec3f(texel.val)));
+        }
+    return std::log(std::max(sum, 1e-3));
+}
+
+/// Slope of the bed's bumps where it is as high as it is light: pits of granulation tissue are dark. As of a
+/// depth.
+cv::Vec2d bump_slope(const cv::Mat4f& color, cv::Point at, const shared::Relief& relief)
+{
+    const int reach = static_cast<int>(relief.bump_texels);
+    const auto corner = [&](int x, int y) { return log_luminance(color, at, {x, y}, reach); };
+    const double a = corner(-1, -1), b = corner(1, -1), c = corner(-1, 1), d = corner(1, 1);
+    const double per_mm = relief.bump_mm / (4 * double(relief.bump_texels) * relief.texel_mm);
+    return per_mm * cv::Vec2d(a + c - b - d, a + b - c - d);
+}
+
+cv::Mat4f relief_of(const cv::Mat4f& color, const cv::Mat4f& state, const shared::Relief& parameters)
 {
     cv::Mat1f depth_mm(state.size());
     std::transform(state.begin(), state.end(), depth_mm.begin(), [&](const cv::Vec4f& s) {
@@ -107,8 +137,15 @@ cv::Mat4f relief_of(const cv::Mat4f& state, const shared::Relief& parameters)
     cv::Sobel(depth_mm, along_v, CV_32F, 0, 1, 3, per_mm, 0, cv::BORDER_REPLICATE);
     cv::parallel_for_({0, state.rows}, [&](const cv::Range& rows) {
         for (int y = rows.start; y < rows.end; ++y)
-            for (int x = 0; x < state.cols; ++x)
+            for (int x = 0; x < state.cols; ++x) {
                 open(y, x) = static_cast<float>(openness(depth_mm, {x, y}, parameters));
+                cv::Vec2d slope(along_u(y, x), along_v(y, x));
+                if (const double bed = state(y, x)[2]; bed > 0 && parameters.bump_mm > 0)
+                    slope += bed * bump_slope(color, {x, y}, parameters);
+                slope /= 1 + double(parameters.slope_limit) * cv::norm(slope);
+                along_u(y, x) = static_cast<float>(slope[0]);
+                along_v(y, x) = static_cast<float>(slope[1]);
+            }
     });
     cv::Mat4f relief;
     cv::merge(std::array<cv::Mat, 4>{along_u, along_v, open, depth_mm}, relief);
@@ -135,9 +172,14 @@ cv::Mat2f day0_shape(const Patch& patch)
 
 shared::Relief relief_parameters(const WoundDay& today, double texel_mm)
 {
-    return {static_cast<float>(today.depth_scale),
-            today.in_phases ? static_cast<float>(today.scar.height_mm) : 0.f, static_cast<float>(texel_mm),
-            static_cast<float>(occlusion_reach_mm / texel_mm)};
+    const bool as_tissue = today.in_phases; // else as in the paper: the hollow alone
+    return {.depth_scale = static_cast<float>(today.depth_scale),
+            .scar_mm = as_tissue ? static_cast<float>(today.scar.height_mm) : 0.f,
+            .texel_mm = static_cast<float>(texel_mm),
+            .reach_texels = static_cast<float>(occlusion_reach_mm / texel_mm),
+            .bump_mm = as_tissue ? static_cast<float>(bump_mm) : 0.f,
+            .bump_texels = static_cast<float>(std::floor(bump_reach_mm / texel_mm) + .5),
+            .slope_limit = as_tissue ? static_cast<float>(slope_limit) : 0.f};
 }
 
 cv::Point2d DayMaps::uv(cv::Point2d patch_point) const
@@ -157,7 +199,7 @@ DayMaps maps_on(const PreparedWound& wound, const WoundDay& today, cv::Rect regi
                 warping.fill({(region.x + x + .5) * 2 / size - 1, (region.y + y + .5) * 2 / size - 1},
                              maps.color(y, x), maps.state(y, x));
     });
-    maps.relief = relief_of(maps.state, relief_parameters(today, wound.patch.width_mm / size));
+    maps.relief = relief_of(maps.color, maps.state, relief_parameters(today, wound.patch.width_mm / size));
     return maps;
 }
 
@@ -167,10 +209,12 @@ MapSample sample(const DayMaps& maps, cv::Point2d patch_point, cv::Point2d footp
     if (!(std::abs(uv.x - .5) <= .5 && std::abs(uv.y - .5) <= .5))
         return {};
     const cv::Point2d before = maps.uv(patch_point - footprint), after = maps.uv(patch_point + footprint);
-    const auto blurred = [&](const cv::Mat4f& map) {
-        return .5 * (base::sample<4>(map, after) + base::sample<4>(map, before));
-    };
-    return {blurred(maps.color), base::sample<4>(maps.state, uv), blurred(maps.relief)};
+    const auto mean = [](const cv::Vec4d& a, const cv::Vec4d& b) { return .5 * (a + b); };
+    const cv::Vec4d first = base::sample<4>(maps.relief, after),
+                    second = base::sample<4>(maps.relief, before), off = first - second;
+    // Of two samples the variance is half their squared difference; here the mean of the axes, twice.
+    return {mean(base::sample<4>(maps.color, after), base::sample<4>(maps.color, before)),
+            base::sample<4>(maps.state, uv), mean(first, second), .5 * (off[0] * off[0] + off[1] * off[1])};
 }
 
 } // namespace wound

@@ -28,8 +28,8 @@ struct DayMaps
     cv::Mat4f color;    // rgb: linear reflectance W; a: opacity, 0 on the face's own skin
     cv::Mat4f state;    // channels 0, 1: day 0's depth in mm, warped with the open bed and with the border;
                         // 2: coverage of the open bed; 3: coverage inside the border
-    cv::Mat4f relief;   // channels 0, 1: slope of the depth along u and v, mm per mm; 2: ambient occlusion, 1
-                        // is open; 3: today's depth in mm
+    cv::Mat4f relief; // channels 0, 1: slope of the depth and of the bed's bumps along u and v, mm per mm; 2:
+                      // ambient occlusion, 1 is open; 3: today's depth in mm
 
     /// Texture coordinates in the maps: 0..1 within the region.
     cv::Point2d uv(cv::Point2d patch_point) const;
@@ -41,6 +41,7 @@ DayMaps maps_on(const PreparedWound& wound, const WoundDay& today, cv::Rect regi
 struct MapSample
 {
     cv::Vec4d color{0, 0, 0, 0}, state{0, 0, 0, 0}, relief{0, 0, 1, 0};
+    double slope_variance = 0; // within the footprint: 2 x the variance of the slope along each axis
 };
 
 /// The maps at a point of the patch; the default sample outside the region. `footprint`: a quarter of a

@@ -81,18 +81,25 @@ SkinPoint with_wound(SkinPoint skin, const WoundLook& wound, const PatchPlace& p
     skin.occlusion *= std::lerp(1., here.relief[2], place.facing);
     skin.wetness = std::max(skin.wetness, bed * std::sqrt(fresh));
     skin.tautness = std::max(skin.tautness, scar.sheen * taut);
+    skin.slope_variance += place.facing * place.facing * here.slope_variance;
     return skin;
 }
 
 optics::Shading with_gloss(optics::Shading shading, const SkinPoint& skin)
 {
-    if (shading.ward_model == optics::WardModel::Published)
+    if (optics::only_ward(shading))
         return shading;
-    const double narrower = (1 - .4 * skin.wetness) * (1 - .25 * skin.tautness);
+    const double wet = shading.specular_model == optics::SpecularModel::Ward ? .4 * skin.wetness : 0;
+    const double narrower = (1 - wet) * (1 - .25 * skin.tautness);
     shading.alpha_x *= narrower;
     shading.alpha_y *= narrower;
-    shading.rho_s *= 1 - .4 * skin.wetness + .15 * skin.tautness;
+    shading.rho_s *= 1 - wet + .15 * skin.tautness;
     return shading;
+}
+
+optics::Finish finish_of(const SkinPoint& skin)
+{
+    return {skin.wetness, skin.slope_variance};
 }
 
 } // namespace wound

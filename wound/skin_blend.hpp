@@ -21,9 +21,10 @@ struct SkinPoint
 {
     base::Color albedo;   // C of eq. (4)
     cv::Vec3d normal;     // unit
-    double occlusion = 1; // 1 open
+    double occlusion = 1; // of the wounds' hollows: 1 open
     double wetness = 0;   // 0 dry skin .. 1 open bed
     double tautness = 0;  // 0 porous skin .. 1 new epithelium
+    double slope_variance = 0; // of optics::Finish
 };
 
 /// A wound on a day with its maps and reflectance table. The caller owns the data.
@@ -49,9 +50,10 @@ struct PatchPlace
 SkinPoint with_wound(SkinPoint skin, const WoundLook& wound, const PatchPlace& place,
                      optics::BlendModel model);
 
-/// The specular parameters for this wetness and tautness: a wet bed has a narrower lobe, taut new epithelium
-/// a slightly narrower one. optics::WardModel::Published is eq. (7) alone and gets the shading as it is; nor
-/// does the point's occlusion dim it, as it does the highlight of the other models in the picture.
+/// The specular parameters for this tautness: taut new epithelium has a slightly narrower lobe. The film on a
+/// wet bed is finish_of()'s; SpecularModel::Ward knows none, and there a wet bed has a narrower, dimmer lobe.
+/// Eq. (7) alone (optics::only_ward()) gets the shading as it is; nor does the point's occlusion dim it.
 optics::Shading with_gloss(optics::Shading shading, const SkinPoint& skin);
+optics::Finish finish_of(const SkinPoint& skin);
 
 } // namespace wound

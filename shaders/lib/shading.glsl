@@ -1,8 +1,8 @@
 // Choi & Chin 2014, eq. (8), per light: Lambert (5), translucency (6), Ward (7). Linear Rec. 709.
 #ifndef LIB_SHADING_GLSL
 #define LIB_SHADING_GLSL
+#include "lib/specular.glsl"
 #include "lib/translucency.glsl"
-#include "lib/ward.glsl"
 #include "shared/shading.h"
 
 struct LightSample
@@ -28,8 +28,8 @@ LightSample sample_light(Light light, vec3 position)
 }
 
 // The three terms of eq. (8) are separate functions, so that a shader computes only those it uses. Apply
-// shadow to surface_diffuse and specular; the paper does not shadow translucent light. local = direction *
-// mat3(t, b, n).
+// shadow to surface_diffuse and the highlight (lib/specular.glsl); the paper does not shadow translucent light. local =
+// direction * mat3(t, b, n).
 
 // Without the albedo C.
 vec3 surface_diffuse(ShadingParams p, LightSample light, vec3 local_light)
@@ -45,9 +45,12 @@ vec3 subsurface_diffuse(uint model, ShadingParams p, Light light, vec3 position)
     return p.rho_ts * translucency_weight(model, p, d) * light.strength;
 }
 
-vec3 specular(uint model, ShadingParams p, LightSample light, vec3 local_light, vec3 local_viewer)
+// Jimenez et al. 2016, "Practical Real-Time Strategies for Accurate Indirect Occlusion": the share of its surroundings
+// that a point sees when light goes back and forth in the hollow. `open`: without that; `albedo`: of the hollow.
+vec3 visibility(float open, vec3 albedo)
 {
-    return p.rho_s * ward_times_cosine(model, local_light, local_viewer, p.slope) * light.strength;
+    vec3 a = 2.0404 * albedo - 0.3324, b = 0.6417 - 4.7951 * albedo, c = 2.7552 * albedo + 0.6903;
+    return max(vec3(open), ((open * a + b) * open + c) * open);
 }
 
 #endif

@@ -9,9 +9,10 @@ struct SkinPoint
 {
     vec3 albedo;     // C of eq. (4)
     vec3 normal;     // unit
-    float occlusion; // 1 open
+    float occlusion; // of the wounds' hollows: 1 open
     float wetness;   // 0 dry skin .. 1 open bed
     float tautness;  // 0 porous skin .. 1 new epithelium
+    float slope_variance; // of Finish
 };
 
 // When the whole face is visible, a patch is strongly minified, and graph images have no mip levels: two
@@ -68,7 +69,8 @@ void add_wound(uint blend_model, WoundFrame w, sampler2D color_map, sampler2D st
     if (opacity <= 0)
         return;
     const vec4 state = textureLod(state_map, uv, 0);
-    const vec4 relief = patch_sample(relief_map, uv, footprint);
+    const vec4 relief_after = textureLod(relief_map, uv + footprint, 0), relief_before = textureLod(relief_map, uv - footprint, 0);
+    const vec4 relief = 0.5 * (relief_after + relief_before);
 
     // The photograph does not show the new epithelium between bed and border, so its W is R; its layers
     // already recover with the day, so r is 0 there. The intact rim is inflamed too; new_skin replaces the
@@ -88,6 +90,8 @@ void add_wound(uint blend_model, WoundFrame w, sampler2D color_map, sampler2D st
     skin.occlusion *= mix(1.0, relief.z, facing);
     skin.wetness = max(skin.wetness, bed * sqrt(fresh));
     skin.tautness = max(skin.tautness, w.sheen * taut);
+    const vec2 off = facing * (relief_after.xy - relief_before.xy); // of two samples the variance is half its square
+    skin.slope_variance += 0.5 * dot(off, off);
 }
 
 #endif

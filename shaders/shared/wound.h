@@ -33,6 +33,9 @@ struct Relief
     float scar_mm;      // height of new skin between bed and border
     float texel_mm;     // width of a texel on the skin
     float reach_texels; // largest distance of occluders
+    float bump_mm;      // height of the bed's bumps: the bed is so much higher where it is e times as light
+    float bump_texels;  // half the distance over which their slope is measured: whole texels and a half
+    float slope_limit;  // a slope s becomes s / (1 + slope_limit s)
 };
 
 #ifdef __cplusplus

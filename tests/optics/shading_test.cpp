@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/input_error.hpp"
+#include "wound/optics/specular.hpp"
 
 using std::numbers::pi;
 

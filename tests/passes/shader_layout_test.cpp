@@ -70,7 +70,8 @@ TEST(ShaderLayout, Shading)
              CICATRIX_MEMBER(ShadingParams, rho_s), CICATRIX_MEMBER(ShadingParams, alpha),
              CICATRIX_MEMBER(ShadingParams, beta), CICATRIX_MEMBER(ShadingParams, gamma),
              CICATRIX_MEMBER(ShadingParams, translucency_bound_4), CICATRIX_MEMBER(ShadingParams, slope),
-             CICATRIX_MEMBER(ShadingParams, ambient)});
+             CICATRIX_MEMBER(ShadingParams, ambient), CICATRIX_MEMBER(ShadingParams, fresnel_scale),
+             CICATRIX_MEMBER(ShadingParams, grazing), CICATRIX_MEMBER(ShadingParams, mirrored)});
         gpu_test::expect_layout(stage, "Light", sizeof(Light),
                                 {CICATRIX_MEMBER(Light, position), CICATRIX_MEMBER(Light, kind),
                                  CICATRIX_MEMBER(Light, direction),
@@ -108,5 +109,7 @@ TEST(ShaderLayout, Wound)
                              CICATRIX_MEMBER(WoundToday, bed_presence), CICATRIX_MEMBER(WoundToday, phase)});
     gpu_test::expect_layout("wound_relief.comp", "Relief", sizeof(Relief),
                             {CICATRIX_MEMBER(Relief, depth_scale), CICATRIX_MEMBER(Relief, scar_mm),
-                             CICATRIX_MEMBER(Relief, texel_mm), CICATRIX_MEMBER(Relief, reach_texels)});
+                             CICATRIX_MEMBER(Relief, texel_mm), CICATRIX_MEMBER(Relief, reach_texels),
+                             CICATRIX_MEMBER(Relief, bump_mm), CICATRIX_MEMBER(Relief, bump_texels),
+                             CICATRIX_MEMBER(Relief, slope_limit)});
 }

@@ -172,7 +172,7 @@ Difference compare_color(Scene& scene, const wound::WoundDay& today, const wound
     return compare(scene.draw(today, bare_color(blend)), [&](int x, int y) {
         const wound::SkinPoint skin =
             wound::with_wound({own_albedo, {0, 0, 1}}, look, scene.place(x, y), blend);
-        return base::Color(skin.occlusion * skin.albedo);
+        return optics::visibility(skin.occlusion, skin.albedo).mul(skin.albedo);
     });
 }
 
@@ -199,8 +199,9 @@ base::Color lit_radiance(const wound::SkinPoint& skin, const optics::Shading& sh
                                     .frame = {tangent[0], tangent[1], tangent[2], bitangent[0], bitangent[1],
                                               bitangent[2], n[0], n[1], n[2]},
                                     .to_viewer = cv::normalize(cv::Vec3d(0, 0, distance_m) - position),
-                                    .albedo = shading.ward ? base::Color(0, 0, 0) : skin.albedo};
-    const bool dimmed = shading.ward && shading.ward_model != optics::WardModel::Published;
+                                     .albedo = shading.ward ? base::Color(0, 0, 0) : skin.albedo,
+                                     .finish = wound::finish_of(skin)};
+    const bool dimmed = shading.ward && !optics::only_ward(shading);
     return optics::shade(wound::with_gloss(shading, skin), light, point, 1) * (dimmed ? skin.occlusion : 1);
 }
 

@@ -17,14 +17,16 @@ vec3 shade(ShadingCase c)
     LightSample light = sample_light(c.light, c.a);
     vec3 diffuse = c.number * surface_diffuse(c.params, light, light.direction) +
                    subsurface_diffuse(c.translucency, c.params, c.light, c.a);
-    return diffuse * c.c + c.number * specular(c.model, c.params, light, light.direction, c.b);
+    return diffuse * c.c + c.number * light.strength *
+                               specular_times_cosine(c.specular, c.model, true, c.params, Finish(c.wetness, c.slope_variance),
+                                                     light.direction, c.b);
 }
 
 vec3 evaluate(ShadingCase c)
 {
     switch (c.formula)
     {
-    case FORMULA_WARD: return vec3(ward_times_cosine(c.model, c.a, c.b, c.params.slope));
+    case FORMULA_WARD: return vec3(ward_times_cosine(ward_form(c.model, c.a, c.b), c.params.slope));
     case FORMULA_TRANSLUCENCY: return vec3(translucency_weight(c.model, c.params, c.number));
     case FORMULA_BLEND: return recovering_color(c.model, c.a, c.b, c.c, c.number);
     case FORMULA_SRGB_FROM_LINEAR: return srgb_from_linear(c.a);
@@ -35,6 +37,9 @@ vec3 evaluate(ShadingCase c)
     case FORMULA_NORMAL: return frame_of(c.a, vec4(c.b, c.number))[2];
     case FORMULA_BEND: return bend_to_viewer(c.a, c.b);
     case FORMULA_SHADE: return shade(c);
+    case FORMULA_VISIBILITY: return visibility(c.number, c.a);
+    case FORMULA_SPECULAR_OCCLUSION: return vec3(specular_occlusion(c.number, c.a.x), above_horizon(c.a.y), 0.0);
+    case FORMULA_AMBIENT_SPECULAR: return vec3(ambient_specular(c.params, Finish(c.wetness, 0.0), c.number));
     }
     return vec3(-1.0);
 }

@@ -14,8 +14,8 @@
 #include "scene/command_line.hpp"
 #include "scene/field_table.hpp"
 #include "tools/lab/reflectance.hpp"
-#include "wound/optics/shading.hpp"
 #include "wound/optics/skin_presets.hpp"
+#include "wound/optics/specular.hpp"
 
 namespace lab {
 namespace {

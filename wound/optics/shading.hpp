@@ -22,6 +22,10 @@ namespace optics {
 
 /// What each model is, and its name in scene files, stands in shaders/shared/shading.h.
 enum class WardModel : std::uint32_t { WARD_MODELS(MODEL_ENUMERATOR) };
+enum class SpecularModel : std::uint32_t
+{
+    SPECULAR_MODELS(MODEL_ENUMERATOR)
+};
 enum class TranslucencyModel : std::uint32_t { TRANSLUCENCY_MODELS(MODEL_ENUMERATOR) };
 enum class BlendModel : std::uint32_t { BLEND_MODELS(MODEL_ENUMERATOR) };
 /// How light that enters the skin comes out again.
@@ -29,6 +33,7 @@ enum class Transport : std::uint32_t { TRANSPORTS(MODEL_ENUMERATOR) };
 
 /// By number.
 inline const std::vector<std::string> ward_model_names{WARD_MODELS(MODEL_NAME)},
+    specular_model_names{SPECULAR_MODELS(MODEL_NAME)},
     translucency_model_names{TRANSLUCENCY_MODELS(MODEL_NAME)}, blend_model_names{BLEND_MODELS(MODEL_NAME)},
     transport_names{TRANSPORTS(MODEL_NAME)};
 
@@ -42,7 +47,8 @@ struct Shading
     bool lambert = true, translucency = true, ward = true;
     bool normal_map = true, shadow = true;
     Transport transport = Transport::Published;
-    WardModel ward_model = WardModel::Bounded;
+    SpecularModel specular_model = SpecularModel::Ward;
+    WardModel ward_model = WardModel::Bounded; // the form of every lobe
     TranslucencyModel translucency_model = TranslucencyModel::Bounded;
     BlendModel blend_model = BlendModel::Corrected;
     double rho_d = 0.7, rho_ts = 0.7, rho_s = 0.8; // diffuse, translucent, specular; 0..1
@@ -58,13 +64,20 @@ struct Shading
     bool operator==(const Shading&) const = default;
 };
 
+/// Whether the highlight is eq. (7) as published, which nothing else touches: neither wetness nor occlusion.
+inline bool only_ward(const Shading& shading)
+{
+    return shading.specular_model == SpecularModel::Ward && shading.ward_model == WardModel::Published;
+}
+
 /// Section 5 as printed: its equations and coefficients, no shadow, no ambient light.
 Shading published_shading();
-/// Corrected equations with coefficients for skin in a dim room. rho_d = .862 reflects as much light at the face's
-/// middle as .8 and eq. (6) did together, without light where none arrives (docs/shading.md). rho_s = .2 reflects 5 % of
-/// the light, near skin's Fresnel reflectance (2.8 % at normal incidence for n = 1.4, more at grazing
-/// incidence); the paper's .8 looks like glazed china.
+/// Corrected equations with coefficients for skin in a dim room. rho_d = .862 reflects as much light at the
+/// face's middle as .8 and eq. (6) did together, without light where none arrives (docs/shading.md). The
+/// highlight is that of SpecularModel::Skin.
 Shading skin_shading();
+/// With SpecularModel::Skin rho_s is relative to this: it reflects Fresnel's share of the light.
+inline constexpr double skin_rho_s = 0.2;
 
 /// The paper's unit of length, in which d of eq. (6) is measured: its object is 2.2 wide and its light at
 /// distance 2 from the object's middle.
@@ -111,15 +124,6 @@ DistanceRange translucency_distances(const Light& light, const cv::Vec3d& center
 void check_shading(const Shading& shading, const DistanceRange& reachable, std::string_view where);
 void check_light(const Light& light, std::string_view where);
 
-/// Ward's reflection function, 1/sr, without rho_s. 0 when either direction is at or below the horizon.
-/// Cosines are clamped to at least `ward_min_cosine`, which keeps every model finite.
-inline constexpr double ward_min_cosine = 1e-4;
-double ward(WardModel model, double alpha_x, double alpha_y, const cv::Vec3d& incident,
-            const cv::Vec3d& outgoing);
-
-/// The share of light from this direction that ward() reflects: f cos integrated over outgoing directions.
-double ward_albedo(WardModel model, double alpha_x, double alpha_y, const cv::Vec3d& incident);
-
 /// Eq. (6) at distance d (paper's unit); alpha d + beta > 0.
 double translucency(const Shading& shading, double d);
 
@@ -127,12 +131,25 @@ double translucency(const Shading& shading, double d);
 base::Color blend(BlendModel model, const base::Color& wound, const base::Color& reflectance,
                   const base::Color& skin, double recovery);
 
+/// The share of a point's surroundings that it sees, after light has gone back and forth in the hollow:
+/// `open` 0..1 without that, `albedo` the share that the hollow reflects diffusely. `open` or more, and at
+/// most 1.
+base::Color visibility(double open, const base::Color& albedo);
+
+/// What changes the highlight from point to point.
+struct Finish
+{
+    double wetness = 0;        // share of the point under a film of serum
+    double slope_variance = 0; // 2 x variance of the slopes that are seen as one, added to the lobes' alpha^2
+};
+
 struct ShadedPoint
 {
     cv::Vec3d position;                     // m
     cv::Matx33d frame = cv::Matx33d::eye(); // rows: tangent, bitangent, normal; orthonormal
     cv::Vec3d to_viewer{0, 0, 1};           // unit, in the space of `position`
     base::Color albedo{1, 1, 1};            // C of eq. (4)
+    Finish finish;
 };
 /// Eq. (8) for one light. `visibility` (0 in full shadow .. 1) multiplies the direct light; as in the paper
 /// it does not affect the translucent term.
