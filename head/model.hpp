@@ -17,6 +17,7 @@ struct Vertex
     glm::vec3 normal;   // unit
     glm::vec4 tangent;  // unit, w = +1 or -1 (glTF convention)
     glm::vec2 uv;       // v down
+    float occlusion = 1; // share of surroundings that reach it; of materials without a map (head/occlusion.hpp)
 };
 
 enum class AlphaMode : std::uint8_t

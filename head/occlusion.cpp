@@ -1,18 +1,175 @@
 #include "head/occlusion.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 #include <opencv2/core/utility.hpp>
+#include <tuple>
+
+#include "base/file.hpp"
+#include "base/hash.hpp"
+#include "base/input_error.hpp"
 
 namespace head {
 namespace {
 
 constexpr float start_offset = 3e-4f; // metres along the normal, to avoid hitting the vertex's own triangles
 
+constexpr std::uint64_t occlusion_version = 1; // goes up when the same mesh gets another occlusion
+constexpr int most_rays = 128, fewest_rays = 16; // of a point
+constexpr std::size_t rays_in_all = 16'000'000;  // beyond 125,000 points each gets fewer
+constexpr float smoothed_over = 2e-3f; // metres: occlusion hardly changes along an edge as short as this
+
+/// Vertices that differ in texture coordinates only: of one place and normal.
+struct OcclusionPoints
+{
+    std::vector<glm::vec3> positions, normals;
+    std::vector<std::uint32_t> of_vertex; // no_point: of a vertex that no opaque triangle uses
+    static constexpr std::uint32_t no_point = ~0u;
+};
+
+bool occludes(const Model& model, std::uint32_t material)
+{
+    return model.materials[material].alpha == AlphaMode::Opaque;
+}
+
+template <typename Use> // void(first index of a triangle)
+void for_each_opaque_triangle(const Model& model, const Use& use)
+{
+    for (const Primitive& primitive : model.primitives)
+        if (occludes(model, primitive.material))
+            for (std::uint32_t i = 0; i + 2 < primitive.index_count; i += 3)
+                use(primitive.first_index + i);
+}
+
+OcclusionPoints occlusion_points(const Model& model)
+{
+    OcclusionPoints points;
+    points.of_vertex.assign(model.vertices.size(), OcclusionPoints::no_point);
+    std::vector<std::uint8_t> used(model.vertices.size(), 0);
+    for_each_opaque_triangle(model, [&](std::uint32_t first) {
+        for (std::uint32_t k = 0; k < 3; ++k)
+            used[model.indices[first + k]] = 1;
+    });
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t i = 0; i < used.size(); ++i)
+        if (used[i] != 0)
+            order.push_back(i);
+    const auto key = [&](std::uint32_t i) {
+        const Vertex& v = model.vertices[i];
+        return std::tuple(v.position.x, v.position.y, v.position.z, v.normal.x, v.normal.y, v.normal.z);
+    };
+    std::ranges::stable_sort(order, {}, key);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        if (k == 0 || key(order[k]) != key(order[k - 1])) {
+            points.positions.push_back(model.vertices[order[k]].position);
+            points.normals.push_back(model.vertices[order[k]].normal);
+        }
+        points.of_vertex[order[k]] = std::uint32_t(points.positions.size() - 1);
+    }
+    return points;
+}
+
+/// Means over the neighbours along short edges, so many times: the noise of few rays goes.
+void smooth(std::vector<float>& open, const Model& model, const OcclusionPoints& points, int times)
+{
+    if (times <= 0)
+        return;
+    std::vector<std::array<std::uint32_t, 2>> edges;
+    for_each_opaque_triangle(model, [&](std::uint32_t first) {
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = points.of_vertex[model.indices[first + k]],
+                                b = points.of_vertex[model.indices[first + (k + 1) % 3]];
+            if (a != b && glm::distance(points.positions[a], points.positions[b]) < smoothed_over)
+                edges.push_back({a, b});
+        }
+    });
+    std::vector<float> sums(open.size()), weights(open.size());
+    for (; times > 0; --times) {
+        sums = open;
+        std::ranges::fill(weights, 1.f);
+        for (const auto& [a, b] : edges) { // in the mesh's order: the same sums for any number of threads
+            sums[a] += 0.5f * open[b]; // an inner edge comes twice
+            sums[b] += 0.5f * open[a];
+            weights[a] += 0.5f;
+            weights[b] += 0.5f;
+        }
+        for (std::size_t i = 0; i < open.size(); ++i)
+            open[i] = sums[i] / weights[i];
+    }
+}
+
+/// One byte for each vertex, 255 open: as fine as in a map, and the same whether computed or read.
+std::vector<std::uint8_t> occlusion_bytes(const Model& model, const Bvh& bvh)
+{
+    const OcclusionPoints points = occlusion_points(model);
+    const std::size_t count = std::max<std::size_t>(points.positions.size(), 1);
+    const int rays = std::clamp(int(rays_in_all / count), fewest_rays, most_rays);
+    std::vector<float> open =
+        ambient_occlusion(bvh, points.positions, points.normals, rays, occlusion_reach,
+                          [&](const Hit& hit) { return occludes(model, hit.material); });
+    smooth(open, model, points, (most_rays - rays + 3 * rays - 1) / (3 * rays)); // by about 3 rings' worth
+    std::vector<std::uint8_t> bytes(model.vertices.size(), 255);
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+        if (points.of_vertex[i] != OcclusionPoints::no_point)
+            bytes[i] = std::uint8_t(std::lround(255 * open[points.of_vertex[i]]));
+    return bytes;
+}
+
+void set_occlusion(Model& model, std::span<const std::uint8_t> bytes)
+{
+    for (std::size_t i = 0; i < model.vertices.size(); ++i)
+        model.vertices[i].occlusion = float(bytes[i]) / 255;
+}
+
+/// Of all that the occlusion depends on.
+std::uint64_t occlusion_key(const Model& model)
+{
+    base::Hash hash;
+    hash.add(occlusion_version).add(model.vertices.size());
+    for (const Vertex& vertex : model.vertices)
+        for (const glm::vec3& v : {vertex.position, vertex.normal})
+            hash.add(v.x).add(v.y).add(v.z);
+    hash.add(std::as_bytes(std::span(model.indices)));
+    for (const Primitive& primitive : model.primitives)
+        hash.add(primitive.first_index).add(primitive.index_count).add(occludes(model, primitive.material));
+    return hash.value();
+}
+
+std::array<std::uint8_t, 8> checksum(std::span<const std::uint8_t> bytes)
+{
+    const std::uint64_t value = base::Hash().add(std::as_bytes(bytes)).value();
+    std::array<std::uint8_t, 8> result;
+    std::memcpy(result.data(), &value, result.size());
+    return result;
+}
+
+/// The file's bytes without its checksum; nothing when it is missing or damaged.
+std::vector<std::uint8_t> read_occlusion(const std::filesystem::path& file, std::size_t count)
+{
+    std::error_code ignored;
+    if (std::filesystem::file_size(file, ignored) != count + 8 || ignored)
+        return {};
+    try {
+        std::vector<std::uint8_t> bytes = base::read_file(file, count + 8);
+        if (const auto sum = checksum(std::span(bytes).first(count));
+            bytes.size() != count + 8 || !std::equal(sum.begin(), sum.end(), bytes.end() - 8))
+            return {};
+        bytes.resize(count);
+        return bytes;
+    } catch (const base::InputError&) {
+        return {};
+    }
+}
+
 } // namespace
 
 std::vector<float> ambient_occlusion(const Bvh& bvh, std::span<const glm::vec3> positions,
-                                     std::span<const glm::vec3> normals, int rays, float reach)
+                                     std::span<const glm::vec3> normals, int rays, float reach,
+                                     HitFilter accept)
 {
     // A Fibonacci spiral on the unit disc, projected to the hemisphere: density proportional to the cosine
     // (Malley's method).
@@ -35,11 +192,37 @@ std::vector<float> ambient_occlusion(const Bvh& bvh, std::span<const glm::vec3> 
             const glm::dvec3 start(positions[v] + start_offset * n);
             int free = 0;
             for (const glm::vec3& d : directions)
-                free += !bvh.any(start, glm::dvec3(d.x * tx + d.y * ty + d.z * n), reach);
+                free += !bvh.any(start, glm::dvec3(d.x * tx + d.y * ty + d.z * n), reach, accept);
             open[v] = static_cast<float>(free) / static_cast<float>(rays);
         }
     });
     return open;
+}
+
+bool has_occlusion_map(const Model& model)
+{
+    return std::ranges::any_of(model.materials, [](const Material& m) { return !m.occlusion.empty(); });
+}
+
+std::string bake_occlusion(Model& model, const Bvh& bvh, const std::filesystem::path& folder)
+{
+    const std::filesystem::path file = folder / fmt::format("{:016x}.bin", occlusion_key(model));
+    if (const auto kept = read_occlusion(file, model.vertices.size()); !kept.empty()) {
+        set_occlusion(model, kept);
+        return {};
+    }
+    std::vector<std::uint8_t> bytes = occlusion_bytes(model, bvh);
+    set_occlusion(model, bytes);
+    const auto sum = checksum(bytes);
+    bytes.insert(bytes.end(), sum.begin(), sum.end());
+    try {
+        base::make_folder(folder);
+        base::write_bytes(file, bytes);
+        return {};
+    } catch (const base::InputError& error) {
+        return fmt::format("the occlusion is not kept for the next time: {}: {}", error.where(),
+                           error.problem());
+    }
 }
 
 } // namespace head

@@ -103,9 +103,8 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
         pass.every_frame();
 
     pass.constant("LIGHTS", std::uint32_t(input.lights.size()));
-    pass.constant("LAMBERT", shading.lambert);
+    pass.constant("LAMBERT", shading.lambertian());
     pass.constant("TRANSLUCENCY", shading.translucent());
-    pass.constant("WARD", shading.ward);
     pass.constant("NORMAL_MAP", shading.normal_map);
     pass.constant("SHADOWS", input.shadows.casting);
     pass.constant("AMBIENT", shading.ambient != base::Color(0, 0, 0));
@@ -131,13 +130,16 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
         draw.cull_back_faces = !part.double_sided;
         draw.blend = part.blend;
         draw.depth_write = !part.blend;
-        draw.uniform("Part_", part_params(part));
+        const shared::Part params = part_params(part);
+        draw.uniform("Part_", params);
+        draw.constant("WARD", shading.glossy() && params.specular > 0);
         draw.sample("albedo_map", graph.import(fmt::format("albedo {}", i), *part.albedo),
                     graph::Sampler::LinearRepeatMips);
         draw.sample("normal_map", graph.import(fmt::format("normal {}", i), *part.normal),
                     graph::Sampler::LinearRepeatMips);
         draw.sample("occlusion_map", graph.import(fmt::format("occlusion {}", i), *part.occlusion),
                     graph::Sampler::LinearRepeatMips);
+        draw.constant("OCCLUSION_MAP", part.occlusion != input.head.white);
         bind_wounds(draw, input, part.wounded, blank);
     }
     return radiance;

@@ -9,9 +9,9 @@ namespace passes {
 namespace {
 
 /// Splits a part into the triangles that an anchor's patch reaches and the rest; appends both to `indices`
-/// and `parts`.
+/// and to the parts of `head`, and the first to its wounded triangles.
 void append_split(const head::Model& model, std::span<const head::Anchor> anchors, HeadPart part,
-                  std::vector<std::uint32_t>& indices, std::vector<HeadPart>& parts)
+                  std::vector<std::uint32_t>& indices, Head& head)
 {
     std::vector<std::uint32_t> split[2];
     for (std::uint32_t i = part.first_index; i + 2 < part.first_index + part.index_count; i += 3) {
@@ -19,10 +19,12 @@ void append_split(const head::Model& model, std::span<const head::Anchor> anchor
         const std::array<glm::vec3, 3> corners{model.vertices[corner[0]].position,
                                                model.vertices[corner[1]].position,
                                                model.vertices[corner[2]].position};
-        const bool wounded = part.surface == head::Surface::Skin &&
-                             std::ranges::any_of(anchors, [&](const head::Anchor& anchor) {
-                                 return head::receives(anchor, corners);
-                             });
+        bool wounded = false;
+        for (std::size_t k = 0; k < anchors.size(); ++k)
+            if (part.surface == head::Surface::Skin && head::receives(anchors[k], corners)) {
+                wounded = true;
+                head.wounded[k].push_back({corners, part.double_sided});
+            }
         split[wounded].insert(split[wounded].end(), corner, corner + 3);
     }
     for (const bool wounded : {false, true}) {
@@ -32,7 +34,7 @@ void append_split(const head::Model& model, std::span<const head::Anchor> anchor
         part.index_count = std::uint32_t(split[wounded].size());
         part.wounded = wounded;
         indices.insert(indices.end(), split[wounded].begin(), split[wounded].end());
-        parts.push_back(part);
+        head.parts.push_back(part);
     }
 }
 
@@ -41,11 +43,12 @@ void append_split(const head::Model& model, std::span<const head::Anchor> anchor
 gpu::MeshBuffer upload_mesh(const gpu::Device& device, std::span<const head::Vertex> vertices,
                             std::span<const std::uint32_t> indices, const std::string& name)
 {
-    static constexpr std::array<graph::VertexAttribute, 4> attributes{{
+    static constexpr std::array<graph::VertexAttribute, 5> attributes{{
         {"position", 3, offsetof(head::Vertex, position)},
         {"normal", 3, offsetof(head::Vertex, normal)},
         {"tangent", 4, offsetof(head::Vertex, tangent)},
         {"uv", 2, offsetof(head::Vertex, uv)},
+        {"occlusion", 1, offsetof(head::Vertex, occlusion)},
     }};
     static constexpr graph::VertexLayout layout{sizeof(head::Vertex), attributes};
     return {device, layout, std::as_bytes(vertices), indices, name};
@@ -56,6 +59,7 @@ Head upload_head(const gpu::Device& device, const head::Model& model)
     Head head;
     head.min = model.min;
     head.max = model.max;
+    head.boxes = boxes_around(model);
     const auto keep = [&](const cv::Mat& picture, gpu::Encoding encoding, const std::string& name) {
         head.textures.push_back(
             std::make_shared<const gpu::Texture>(device, picture, encoding, picture.total() > 1, name));
@@ -114,9 +118,10 @@ Head with_wounds(const gpu::Device& device, const Head& head, const head::Model&
         return head;
     Head wounded = head;
     wounded.parts.clear();
+    wounded.wounded.resize(anchors.size());
     std::vector<std::uint32_t> indices;
     for (const HeadPart& part : head.parts)
-        append_split(model, anchors, part, indices, wounded.parts);
+        append_split(model, anchors, part, indices, wounded);
     wounded.mesh = std::make_shared<const gpu::MeshBuffer>(device, *head.mesh, indices, "head with wounds");
     return wounded;
 }

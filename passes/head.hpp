@@ -10,6 +10,7 @@
 #include "head/materials.hpp"
 #include "head/model.hpp"
 #include "head/placement.hpp"
+#include "passes/in_view.hpp"
 
 namespace passes {
 
@@ -34,6 +35,8 @@ struct Head
     std::vector<std::shared_ptr<const gpu::Texture>> textures;
     const gpu::Texture* white = nullptr; // one texel
     glm::vec3 min{0.0f}, max{0.0f};      // metres
+    std::vector<Bounds> boxes;              // boxes_around() the model
+    std::vector<std::vector<Triangle>> wounded; // by anchor: the skin that its patch reaches
 };
 
 gpu::MeshBuffer upload_mesh(const gpu::Device& device, std::span<const head::Vertex> vertices,

@@ -27,6 +27,46 @@ glm::dmat4 light_view(const glm::dvec3& eye, const glm::dvec3& forward)
     return glm::lookAtRH(eye, eye + forward, up);
 }
 
+/// x and y at unit depth (at any depth for a parallel light), and the depth.
+glm::dvec3 on_plane(const glm::dmat4& view, const glm::dvec3& point, bool parallel)
+{
+    const glm::dvec3 seen(view * glm::dvec4(point, 1));
+    return {glm::dvec2(seen) / (parallel ? 1 : -seen.z), -seen.z};
+}
+
+constexpr double footprint = 4.0 / shadow_size; // of the filter, with a margin; share of the map's width
+constexpr int widths_per_octave = 4;
+constexpr double narrowest = 1.0 / 4; // of the whole map: finer texels would show the mesh's facets
+constexpr int steps = 16;             // along the map's width; a step is a whole number of texels
+
+/// A square of the plane at unit depth.
+struct Window
+{
+    glm::dvec2 low;
+    double width;
+};
+
+/// The narrowest window that holds the boxes; the whole, from -half to half, when there are none.
+Window window_around(std::span<const Bounds> boxes, const glm::dmat4& view, bool parallel, double half)
+{
+    glm::dvec2 low(half), high(-half);
+    for (const Bounds& box : boxes)
+        for (const glm::dvec3& corner : corners(box.min, box.max)) {
+            const glm::dvec2 place(on_plane(view, corner, parallel));
+            low = glm::min(low, place);
+            high = glm::max(high, place);
+        }
+    Window best{glm::dvec2(-half), 2 * half};
+    for (int i = 1; !boxes.empty() && std::exp2(-double(i) / widths_per_octave) >= narrowest; ++i) {
+        const double width = 2 * half * std::exp2(-double(i) / widths_per_octave), step = width / steps;
+        const glm::dvec2 from = -half + step * glm::floor((low - footprint * width + half) / step);
+        if (glm::any(glm::greaterThan(high + footprint * width, from + width)))
+            break;
+        best = {from, width};
+    }
+    return best;
+}
+
 /// The shadow in the `tile`-th of `count` tiles of the depth image, from left to right.
 shared::Shadow in_tile(const shared::Shadow& shadow, int tile, int count)
 {
@@ -42,7 +82,7 @@ shared::Shadow in_tile(const shared::Shadow& shadow, int tile, int count)
 } // namespace
 
 std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::vec3& box_min,
-                                         const glm::vec3& box_max)
+                                         const glm::vec3& box_max, std::span<const Bounds> seen)
 {
     const glm::dvec3 center = glm::dvec3(box_min + box_max) * 0.5;
     const double radius = glm::length(glm::dvec3(box_max) - center);
@@ -58,37 +98,39 @@ std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::
     // Half width and height at unit depth (at any depth for a parallel light), and the span of depths.
     double half = 0, near = distance, far = distance;
     for (const glm::dvec3& corner : corners(box_min, box_max)) {
-        const glm::dvec4 seen = view * glm::dvec4(corner, 1);
-        const double depth = -seen.z, spread = parallel ? 1 : depth;
-        half = std::max({half, std::abs(seen.x) / spread, std::abs(seen.y) / spread});
-        near = std::min(near, depth);
-        far = std::max(far, depth);
+        const glm::dvec3 place = on_plane(view, corner, parallel);
+        half = std::max({half, std::abs(place.x), std::abs(place.y)});
+        near = std::min(near, place.z);
+        far = std::max(far, place.z);
     }
     const double margin = 0.01 * radius;
     near = std::max(near - margin, 0.05 * distance);
     far += margin;
-    half *= 1 + 4.0 / shadow_size; // margin for the filter's footprint
+    half *= 1 + footprint;
 
-    glm::dmat4 projection =
-        parallel ? glm::orthoRH_ZO(-half, half, -half, half, near, far)
-                 : glm::frustumRH_ZO(-half * near, half * near, -half * near, half * near, near, far);
-    projection[1][1] = -projection[1][1]; // Vulkan's y points down
+    const Window window = window_around(seen, view, parallel, half);
+    const glm::dvec2 low = window.low, high = window.low + window.width;
+    glm::dmat4 projection = parallel ? glm::orthoRH_ZO(low.x, high.x, low.y, high.y, near, far)
+                                     : glm::frustumRH_ZO(low.x * near, high.x * near, low.y * near,
+                                                         high.y * near, near, far);
+    for (int column = 0; column < 4; ++column)
+        projection[column][1] = -projection[column][1]; // Vulkan's y points down
     const glm::dmat4 clip_from_world = projection * view;
     return shared::Shadow{.clip_from_world = glm::mat4(clip_from_world),
                           .clip_plane_from_world = glm::mat4(glm::transpose(glm::inverse(clip_from_world))),
-                          .texel = static_cast<float>(2 * half / shadow_size),
+                          .texel = static_cast<float>(window.width / shadow_size),
                           .step = glm::vec2(2.f / shadow_size)};
 }
 
-Shadows fit_shadows(std::span<const optics::Light> lights, const glm::vec3& box_min, const glm::vec3& box_max)
+Shadows fit_shadows(std::span<const optics::Light> lights, const glm::vec3& box_min, const glm::vec3& box_max,
+                    std::span<const Bounds> seen)
 {
     Shadows shadows{}; // zero where no light is: what the pass remembers must not change
     for (std::size_t i = 0; i < lights.size(); ++i)
-        if (lights[i].strength != base::Color(0, 0, 0))
-            if (const auto shadow = fit_shadow(lights[i], box_min, box_max)) {
-                shadows.lights[i] = *shadow;
-                shadows.casting |= 1u << i;
-            }
+        if (const auto shadow = fit_shadow(lights[i], box_min, box_max, seen)) {
+            shadows.lights[i] = *shadow;
+            shadows.casting |= 1u << i;
+        }
     const int count = std::popcount(shadows.casting);
     for (std::size_t i = 0, tile = 0; i < lights.size(); ++i)
         if ((shadows.casting >> i & 1) != 0)

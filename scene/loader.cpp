@@ -12,6 +12,7 @@
 #include "head/albedo_under.hpp"
 #include "head/default_head.hpp"
 #include "head/materials.hpp"
+#include "head/occlusion.hpp"
 #include "scene/field_table.hpp"
 #include "shaders/shared/frame.h"
 #include "wound/drawn_region.hpp"
@@ -205,6 +206,13 @@ std::shared_ptr<const LoadedHead> load_head(const std::filesystem::path& chosen)
     head->face = head::find_face(*model);
     head->skin = head::skin_material(*model);
     head->bvh = std::make_shared<const head::Bvh>(*model);
+    if (!head::has_occlusion_map(*model)) {
+        const std::string problem =
+            head::bake_occlusion(*model, *head->bvh, base::cache_folder() / "occlusion");
+        head->notes.push_back(fmt::format("{}: no occlusion map: computed from the shape", file.string()));
+        if (!problem.empty())
+            head->notes.push_back(problem);
+    }
     head->model = std::move(model);
     return head;
 }

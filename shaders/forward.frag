@@ -22,6 +22,7 @@ layout(constant_id = 8) const uint TRANSLUCENCY_MODEL = TRANSLUCENCY_BOUNDED;
 layout(constant_id = 9) const uint BLEND_MODEL = BLEND_CORRECTED;
 layout(constant_id = 10) const uint LIGHTS = 1;
 layout(constant_id = 11) const uint SPECULAR_MODEL = SPECULAR_SKIN;
+layout(constant_id = 12) const bool OCCLUSION_MAP = true; // false: the vertices' occlusion
 
 layout(location = 0) in vec3 v_position;
 layout(location = 1) in vec3 v_normal;
@@ -30,6 +31,7 @@ layout(location = 3) in vec2 v_uv;
 layout(location = 4) in vec3 v_subsurface;
 layout(location = 5) in vec4 v_shadow_place[2]; // of the first two lights
 layout(location = 7) in vec2 v_shadow_slope[2];
+layout(location = 9) in float v_occlusion;
 layout(location = 0) out vec4 out_color;
 
 layout(scalar, binding = 0) uniform View_ { View view; };
@@ -68,7 +70,9 @@ void main()
         const vec3 mapped = texture(normal_map, v_uv).xyz * 2 - 1;
         skin.normal = normalize_or(frame * vec3(mapped.xy * part.normal_scale, max(mapped.z, 0.05)), geometric);
     }
-    const float open = AMBIENT ? texture(occlusion_map, v_uv).r : 1; // of the head alone
+    float open = 1; // share of the surroundings that the head lets through; skin.occlusion: that the wound does
+    if (AMBIENT)
+        open = OCCLUSION_MAP ? texture(occlusion_map, v_uv).r : v_occlusion;
     // Unrolled by hand: indexing an array of samplers by a loop counter is ten times slower on a software
     // rasteriser.
     ADD_WOUND(0) ADD_WOUND(1) ADD_WOUND(2) ADD_WOUND(3) ADD_WOUND(4) ADD_WOUND(5) ADD_WOUND(6)

@@ -21,6 +21,7 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
+layout(location = 4) in float occlusion;
 
 layout(location = 0) out vec3 v_position;
 layout(location = 1) out vec3 v_normal;
@@ -29,6 +30,7 @@ layout(location = 3) out vec2 v_uv;
 layout(location = 4) out vec3 v_subsurface;
 layout(location = 5) out vec4 v_shadow_place[2]; // of the first two lights
 layout(location = 7) out vec2 v_shadow_slope[2];
+layout(location = 9) out float v_occlusion;
 
 void main()
 {
@@ -36,6 +38,7 @@ void main()
     v_normal = normal;
     v_tangent = tangent;
     v_uv = uv;
+    v_occlusion = occlusion;
     v_subsurface = vec3(0);
     if (TRANSLUCENCY)
         for (uint i = 0; i < LIGHTS; ++i)

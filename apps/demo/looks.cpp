@@ -65,7 +65,7 @@ void draw_terms(optics::Shading& shading)
 {
     ImGui::Checkbox("diffuse", &shading.lambert);
     ImGui::SameLine();
-    bool translucent = shading.translucent();
+    bool translucent = shading.translucency && shading.transport == optics::Transport::Published;
     if (ImGui::Checkbox("translucency", &translucent)) {
         shading.translucency = translucent;
         shading.transport = translucent ? optics::Transport::Published : optics::Transport::Lambert;

@@ -74,6 +74,55 @@ TEST(Shadow, TexelIsItsWidthInMetres)
     }
 }
 
+TEST(Shadow, IsNarrowedToWhatIsSeenAndKeepsAllCastersBeforeIt)
+{
+    const passes::Bounds face{{-.05f, -.05f, 0}, {.05f, .05f, .12f}};
+    for (const optics::Light& light : lights) {
+        const auto whole = passes::fit_shadow(light, head_min, head_max),
+                   narrow = passes::fit_shadow(light, head_min, head_max, {&face, 1});
+        ASSERT_TRUE(narrow);
+        EXPECT_LT(narrow->texel, .85f * whole->texel);
+        EXPECT_GE(narrow->texel, .249f * whole->texel);
+        for (int i = 0; i < 8; ++i) {
+            const auto corner_of = [&](const glm::vec3& min, const glm::vec3& max) {
+                return glm::vec3(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z);
+            };
+            const glm::vec3 p = seen(*narrow, corner_of(face.min, face.max));
+            EXPECT_TRUE(std::abs(p.x) < 1 && std::abs(p.y) < 1) << p.x << ' ' << p.y;
+            const float depth = seen(*narrow, corner_of(head_min, head_max)).z;
+            EXPECT_TRUE(depth > 0 && depth < 1) << depth;
+        }
+    }
+}
+
+// A texel must keep its place on the head, or shadows crawl.
+TEST(Shadow, StaysWhileTheCameraMovesALittleAndThenMovesByWholeTexels)
+{
+    for (const optics::Light& light : {point_light(0.3, 0.4, 0.6), parallel_light({0.3, 0.5, 0.8})}) {
+        std::vector<shared::Shadow> fitted;
+        for (int i = 0; i < 200; ++i) {
+            const glm::vec3 low(-.08f + 2e-4f * float(i), -.03f, .05f);
+            const passes::Bounds face{low, low + glm::vec3(.08f, .08f, .01f)};
+            fitted.push_back(*passes::fit_shadow(light, head_min, head_max, {&face, 1}));
+        }
+        int changes = 0, moves = 0;
+        for (std::size_t i = 1; i < fitted.size(); ++i) {
+            if (fitted[i].clip_from_world == fitted[i - 1].clip_from_world)
+                continue;
+            ++changes;
+            if (fitted[i].texel != fitted[i - 1].texel)
+                continue;
+            ++moves;
+            const glm::vec2 texels = glm::vec2(seen(fitted[i], {0, 0, .05f}) - seen(fitted[i - 1], {0, 0, .05f})) *
+                                     (.5f * passes::shadow_size);
+            EXPECT_LT(glm::length(texels - glm::round(texels)), .02f);
+            EXPECT_GE(glm::length(texels), 63);
+        }
+        EXPECT_LE(changes, 20);
+        EXPECT_GE(moves, 2);
+    }
+}
+
 TEST(Shadow, LightInsideTheHeadCastsNoShadow)
 {
     EXPECT_FALSE(passes::fit_shadow(point_light(0, 0, 0), head_min, head_max));

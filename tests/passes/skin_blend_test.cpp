@@ -27,12 +27,12 @@ const base::Color own_albedo(.55f, .36f, .27f); // of the wall
 const cv::Vec3b normal_code(150, 118, 250); // of every texel of the normal map
 
 /// A square of skin at z = 0, 24 cm wide, which faces +z.
-head::Model wall()
+head::Model wall(float open = 1)
 {
     head::Model model;
     for (const glm::vec2 uv : {glm::vec2(0, 0), {0, 1}, {1, 0}, {1, 1}})
         model.vertices.push_back(
-            {{.24f * (uv.x - .5f), .24f * (.5f - uv.y), 0}, {0, 0, 1}, {1, 0, 0, 1}, uv});
+            {{.24f * (uv.x - .5f), .24f * (.5f - uv.y), 0}, {0, 0, 1}, {1, 0, 0, 1}, uv, open});
     model.indices = {0, 1, 2, 2, 1, 3};
     model.primitives = {{0, 6, 0}};
     head::Material skin;
@@ -59,7 +59,7 @@ optics::Shading bare_color(optics::BlendModel model)
 class Scene
 {
   public:
-    Scene(const std::string& kind, wound::HealingModel model, const head::Anchor& anchor)
+    Scene(const std::string& kind, wound::HealingModel model, const head::Anchor& anchor, float open = 1)
         : prepared(wound::prepare(wound::synthesize({.kind = kind, .seed = 3}), {.patch_size = 256})),
           anchor_(anchor)
     {
@@ -74,7 +74,7 @@ class Scene
         tissue_ = passes::lut_tissue(rows.days, last_day);
         maps_ = passes::upload_wound(gpu_test::device(), prepared.patch);
         maps_.region = wound::drawn_region(prepared, healing);
-        const head::Model skin = wall();
+        const head::Model skin = wall(open);
         head_ = passes::with_wounds(gpu_test::device(), passes::upload_head(gpu_test::device(), skin), skin,
                                     std::array{anchor_});
     }
@@ -260,6 +260,39 @@ TEST_F(SkinBlendOnGpu, DiffuseLightAndHighlightEqualThoseOfTheCpu)
                 EXPECT_LT(found.mean, highlight ? 5e-4 : of_color.mean) << where;
             }
         }
+    }
+}
+
+// In a hollow of the head the surroundings are dimmed and the skin around sends light back; the highlight stays.
+TEST_F(SkinBlendOnGpu, OcclusionOfTheHeadEqualsThatOfTheCpu)
+{
+    constexpr float open = .4f;
+    const optics::Light light{.kind = optics::LightKind::Directional,
+                              .position = {0, 0, 0},
+                              .direction = cv::normalize(cv::Vec3d(.5, .4, .8))};
+    const base::Color ambient(.3, .35, .4);
+    const cv::Vec3d mapped = cv::normalize(cv::Vec3d(normal_code) / 255. * 2 - cv::Vec3d(1, 1, 1));
+    Scene scene("abrasion", wound::HealingModel::Face, {}, open);
+    const wound::WoundDay today = wound::wound_at(scene.prepared, scene.healing, 3);
+    const wound::DayMaps maps = scene.maps_on(today);
+    const wound::WoundLook look = scene.look(today, maps);
+    for (const bool highlight : {false, true}) {
+        optics::Shading shading = lit(highlight);
+        shading.ambient = ambient;
+        if (highlight)
+            shading.rho_d = 0;
+        const Difference found = compare(scene.draw(today, shading, {light}), [&](int x, int y) {
+            const wound::SkinPoint skin =
+                wound::with_wound({own_albedo, mapped}, look, scene.place(x, y), shading.blend_model);
+            const base::Color direct =
+                lit_radiance(skin, shading, light, head::to_cv(scene.position(x, y)));
+            const base::Color albedo = shading.rho_d * skin.albedo;
+            return highlight ? direct
+                             : base::Color((direct + open * skin.occlusion * albedo.mul(ambient))
+                                               .mul(optics::interreflection(open, albedo)));
+        });
+        EXPECT_LT(found.largest, highlight ? .05 : of_color.largest) << highlight;
+        EXPECT_LT(found.mean, highlight ? 5e-4 : of_color.mean) << highlight;
     }
 }
 

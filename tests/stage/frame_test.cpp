@@ -20,16 +20,17 @@ struct Studio
     {
     }
 
-    gpu::FrameResult draw(double day)
+    gpu::FrameResult draw(double day) { return draw(day, stage.loaded().camera()); }
+    gpu::FrameResult draw(double day, const head::Camera& camera)
     {
         graph::Graph graph;
-        graph.readback("picture", stage
-                                      .declare(graph, {.day = day,
-                                                       .tile = stage.scene().size,
-                                                       .camera = stage.loaded().camera(),
-                                                       .shading = shading})
-                                      .images.picture);
+        graph.readback("picture", declare(graph, day, camera).images.picture);
         return executor.run(graph);
+    }
+    stage::Frame declare(graph::Graph& graph, double day, const head::Camera& camera) const
+    {
+        return stage.declare(
+            graph, {.day = day, .tile = stage.scene().size, .camera = camera, .shading = shading});
     }
     cv::Mat4b picture(double day) { return draw(day).mat({0}).clone(); }
 
@@ -60,6 +61,37 @@ double share_that_differs(const cv::Mat4b& a, const cv::Mat4b& b, int by_more_th
     for (const cv::Vec4b& pixel : cv::Mat4b(difference))
         count += std::max({pixel[0], pixel[1], pixel[2]}) > by_more_than;
     return double(count) / double(a.total());
+}
+
+/// The constants of the forward pass or, if one has a value of its own, of its draws.
+std::vector<std::uint32_t> forward_constants(const Studio& studio, const head::Camera& camera, const char* name)
+{
+    graph::Graph graph;
+    studio.declare(graph, 3, camera);
+    for (const graph::Pass& pass : graph.passes)
+        if (graph::name_of(pass) == "forward") {
+            const auto& forward = std::get<graph::RasterPass>(pass);
+            std::vector<std::uint32_t> values;
+            const auto take = [&](const graph::Bindings& bindings) {
+                if (const auto found = bindings.constants.find(name); found != bindings.constants.end())
+                    std::visit([&](auto value) { values.push_back(std::uint32_t(value)); }, found->second);
+            };
+            take(forward);
+            for (const graph::Draw& draw : forward.draws)
+                take(draw);
+            return values;
+        }
+    return {};
+}
+
+/// Around the head at the height of the scene's camera.
+head::Camera turned(const stage::Stage& stage, double azimuth_deg, double fov_deg)
+{
+    scene::Camera camera = stage.scene().camera;
+    camera.from.azimuth_deg = azimuth_deg;
+    camera.distance_m = stage.loaded().distance(camera);
+    camera.fov_deg = fov_deg;
+    return stage.loaded().camera(camera);
 }
 
 using Frame = gpu_test::Test;
@@ -175,4 +207,126 @@ TEST_F(Frame, MultisamplingSmoothsEdgesAndLeavesTheRestAlone)
     const double edges = share_that_differs(a, b, 16);
     EXPECT_GT(edges, 0.001);
     EXPECT_LT(edges, 0.02);
+}
+
+// A light without strength and a term without a coefficient: the picture is that of the scene without them, and
+// the shader variant too.
+TEST_F(Frame, LightsAndTermsThatGiveNothingCostNothing)
+{
+    scene::Scene scene = small::scene(small::head(), 128);
+    Studio plain(scene);
+    const head::Camera camera = plain.stage.loaded().camera();
+    const cv::Mat4b picture = plain.picture(3);
+
+    scene::Scene with_dark = scene;
+    scene::Light dark = scene.lights[0];
+    dark.intensity = 0;
+    with_dark.lights.insert(with_dark.lights.begin(), dark);
+    Studio darkened(with_dark);
+    EXPECT_EQ(share_that_differs(darkened.picture(3), picture, 0), 0);
+    for (const char* name : {"LIGHTS", "SHADOWS"})
+        EXPECT_EQ(forward_constants(darkened, camera, name), forward_constants(plain, camera, name));
+
+    scene.shading.transport = optics::Transport::Published; // so that there is a translucent term
+    const auto alike = [&](const char* constant, const auto& no_coefficient, const auto& off) {
+        scene::Scene zero = scene, without = scene;
+        no_coefficient(zero.shading);
+        off(without.shading);
+        Studio a(zero), b(without);
+        EXPECT_EQ(share_that_differs(a.picture(3), b.picture(3), 0), 0) << constant;
+        for (const std::uint32_t value : forward_constants(a, camera, constant))
+            EXPECT_EQ(value, 0u) << constant;
+        EXPECT_FALSE(forward_constants(a, camera, constant).empty()) << constant;
+    };
+    alike("WARD", [](auto& s) { s.rho_s = 0; }, [](auto& s) { s.ward = false; });
+    alike("TRANSLUCENCY", [](auto& s) { s.rho_ts = 0; }, [](auto& s) { s.translucency = false; });
+    alike("LAMBERT", [](auto& s) { s.rho_d = 0; }, [](auto& s) { s.rho_d = 0, s.lambert = false; });
+    alike("AMBIENT", [](auto& s) { s.ambient = {0, 0, 0}; }, [](auto& s) { s.ambient = {0, 0, 0}; });
+
+    plain.shading.rho_d = plain.shading.rho_s = 0;
+    EXPECT_THAT(ran(plain.draw(3)), testing::Not(testing::Contains("shadow")));
+    EXPECT_EQ(forward_constants(plain, camera, "SHADOWS"), std::vector{0u});
+}
+
+TEST_F(Frame, AWoundThatIsNotInThePictureCostsNothing)
+{
+    scene::Scene scene = small::scene(small::head(), 128);
+    Studio wounded(scene);
+    scene.wounds.clear();
+    Studio bare(scene);
+    int hidden = 0, visible = 0;
+    for (int azimuth = -180; azimuth < 180; azimuth += 15)
+        for (const double fov_deg : {6., 25.}) {
+            const head::Camera camera = turned(wounded.stage, azimuth, fov_deg);
+            const gpu::FrameResult frame = wounded.draw(3, camera);
+            const double differs =
+                share_that_differs(frame.mat({0}), bare.draw(3, camera).mat({0}), 0);
+            const bool culled = frame.pass("wound_texture").state == PassState::Culled;
+            for (const char* pass : {"wound_relief", "reflectance_lut"})
+                EXPECT_EQ(frame.pass(pass).state == PassState::Culled, culled) << azimuth << ' ' << fov_deg;
+            const std::vector<std::uint32_t> variants = forward_constants(wounded, camera, "WOUNDS");
+            EXPECT_EQ(*std::ranges::max_element(variants), culled ? 0u : 1u);
+            if (culled) {
+                EXPECT_EQ(differs, 0) << "hidden, but " << azimuth << ' ' << fov_deg << " shows it";
+            }
+            hidden += culled;
+            visible += differs > 0;
+        }
+    EXPECT_GE(hidden, 20) << "of 48";
+    EXPECT_GE(visible, 12);
+    EXPECT_EQ(wounded.draw(3, turned(wounded.stage, 30, 25)).pass("wound_texture").state, PassState::Skipped)
+        << "its images are kept while it is hidden";
+}
+
+TEST_F(Frame, AWoundBesideThePictureChangesNothingOfTheOther)
+{
+    scene::Scene scene = small::scene(small::head(), 128);
+    Studio one(scene);
+    scene.wounds.push_back(scene.wounds[0]);
+    scene.wounds[1].place = std::string("forehead");
+    Studio two(scene);
+    const head::Camera near = two.stage.loaded().close_up(0);
+    const gpu::FrameResult frame = two.draw(3, near);
+    EXPECT_EQ(frame.pass("wound_texture").state, PassState::Run);
+    EXPECT_EQ(frame.pass("wound_texture 2").state, PassState::Culled);
+    EXPECT_EQ(share_that_differs(frame.mat({0}), one.draw(3, near).mat({0}), 0), 0);
+}
+
+TEST_F(Frame, AWoundThatIsNotInThePictureIsMeasuredAllTheSame)
+{
+    Studio studio(small::scene(small::head(), 64));
+    std::vector<cv::Mat> states;
+    for (const double azimuth : {0., 180.}) {
+        graph::Graph graph;
+        const stage::Frame frame = studio.declare(graph, 3, turned(studio.stage, azimuth, 25));
+        const graph::ReadbackId state = graph.readback("state", frame.images.wounds[0].state);
+        graph.readback("kinds", frame.images.labels.kinds);
+        gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
+        states.push_back(executor.run(graph).mat(state).clone());
+    }
+    EXPECT_GT(cv::sum(states[0])[2], 0);
+    EXPECT_EQ(cv::norm(states[0], states[1], cv::NORM_INF), 0);
+}
+
+// The shadow maps are fitted to what the camera sees, but not anew for every little move and for every tile.
+TEST_F(Frame, ShadowsAreDrawnAnewOnlyWhenTheViewHasChangedALot)
+{
+    Studio studio(small::scene(small::head(), 64));
+    int drawn = 0;
+    for (int i = 0; i < 90; ++i)
+        drawn += studio.draw(3, turned(studio.stage, i, 12)).pass("shadow").state == PassState::Run;
+    EXPECT_GE(drawn, 2);
+    EXPECT_LE(drawn, 45) << "in steps of a degree";
+
+    passes::ViewportTile tile(studio.stage.scene().size);
+    for (tile.size = {32, 32}; tile.corner[0] < 64; tile.corner[0] += 32) {
+        graph::Graph graph;
+        graph.readback("picture", studio.stage
+                                      .declare(graph, {.day = 3,
+                                                       .tile = tile,
+                                                       .camera = turned(studio.stage, 89, 12),
+                                                       .shading = studio.shading})
+                                      .images.picture);
+        EXPECT_EQ(studio.executor.run(graph).pass("shadow").state, PassState::Skipped);
+    }
 }

@@ -141,7 +141,6 @@ std::span<const std::uint32_t> indices_of(const head::RawMesh& mesh, const head:
 std::vector<glm::vec3> occlusion_of(const head::RawMesh& mesh)
 {
     constexpr int rays = 128;
-    constexpr float reach = 0.15f; // metres: half a head
     std::vector<glm::vec3> positions, normals;
     for (const head::Vertex& vertex : mesh.vertices) {
         positions.push_back(vertex.position);
@@ -153,7 +152,8 @@ std::vector<glm::vec3> occlusion_of(const head::RawMesh& mesh)
             const auto indices = indices_of(mesh, primitive);
             solid.insert(solid.end(), indices.begin(), indices.end());
         }
-    const auto open = head::ambient_occlusion(head::Bvh(positions, solid), positions, normals, rays, reach);
+    const auto open = head::ambient_occlusion(head::Bvh(positions, solid), positions, normals, rays,
+                                              head::occlusion_reach);
     return {open.begin(), open.end()};
 }
 

@@ -153,6 +153,14 @@ LightSample sample_light(const Light& light, const cv::Vec3d& position)
     return {offset / metres, metres, falloff * light.strength};
 }
 
+base::Color interreflection(double open, const base::Color& albedo)
+{
+    base::Color factor;
+    for (int c = 0; c < 3; ++c)
+        factor[c] = std::min(10., 1 / (1 - (1 - open) * albedo[c]));
+    return factor;
+}
+
 base::Color shade(const Shading& shading, const Light& light, const ShadedPoint& point, double visibility)
 {
     const LightSample sample = sample_light(light, point.position);

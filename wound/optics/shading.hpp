@@ -56,8 +56,10 @@ struct Shading
     double alpha_x = 0.4, alpha_y = 0.4; // standard deviation of the slope along tangent and bitangent
     base::Color ambient{0, 0, 0};        // linear radiance of the surroundings; 0 disables the term
 
-    /// Whether the term of eq. (6) is drawn.
-    bool translucent() const { return translucency && transport == Transport::Published; }
+    /// Which terms are drawn: chosen, and with a coefficient above 0.
+    bool lambertian() const { return lambert && rho_d > 0; }
+    bool translucent() const { return translucency && transport == Transport::Published && rho_ts > 0; }
+    bool glossy() const { return ward && rho_s > 0; }
     /// W, the largest translucent weight at which a point that faces the light reflects no more light than it
     /// receives: rho_d + rho_ts W = 1.
     double translucency_bound() const;
