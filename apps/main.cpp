@@ -7,6 +7,7 @@
 #include "apps/compare/compare.hpp"
 #include "apps/demo/demo.hpp"
 #include "apps/document/document.hpp"
+#include "apps/figure/figure.hpp"
 #include "apps/fit/fit.hpp"
 #include "apps/graph/graph.hpp"
 #include "apps/info/info.hpp"
@@ -38,6 +39,7 @@ int main(int argc, char** argv)
     reflect_command::add(program);
     reference_command::add(program);
     bake_command::add(program);
+    figure_command::add(program);
     document_command::add(program);
     return base::run_program(program, argc, argv);
 }

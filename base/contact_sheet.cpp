@@ -10,7 +10,6 @@ namespace base {
 namespace {
 
 const cv::Vec3b page_color = rgb_of(palette::paper);
-constexpr int cell_width = 300;
 constexpr int gap = 12, label_height = 30, header_height = 44;
 
 void paste(cv::Mat3b& page, const cv::Mat3b& picture, cv::Point at)
@@ -33,7 +32,7 @@ cv::Mat3b on_page(const cv::Mat4b& rgba)
 
 } // namespace
 
-cv::Mat3b sheet_picture(const cv::Mat& picture)
+cv::Mat3b sheet_picture(const cv::Mat& picture, int cell_width)
 {
     const cv::Mat3b opaque = picture.channels() == 4 ? on_page(picture) : cv::Mat3b(picture);
     cv::Mat3b small;
@@ -45,11 +44,12 @@ cv::Mat3b sheet_picture(const cv::Mat& picture)
 cv::Mat3b contact_sheet(const std::string& title, const std::vector<SheetCell>& cells, int columns)
 {
     columns = std::max(1, std::min(columns, int(cells.size())));
-    const int face_height = cells.front().face.rows;
+    const int cell_width = cells.front().face.cols, face_height = cells.front().face.rows;
     const int close_height = cells.front().close_up.rows;
     const int row_height = face_height + close_height + label_height + gap + 4;
     const int rows = (int(cells.size()) + columns - 1) / columns;
     cv::Mat3b page(header_height + rows * row_height + gap, gap + columns * (cell_width + gap), page_color);
+    const double label_text = std::min(11., cell_width / 25.); // narrow cells hold as many letters
     draw_text(page, title, {gap, header_height - 16}, {.height = 14});
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const int x = gap + int(i) % columns * (cell_width + gap);
@@ -57,7 +57,7 @@ cv::Mat3b contact_sheet(const std::string& title, const std::vector<SheetCell>& 
         paste(page, cells[i].face, {x, y});
         if (close_height > 0)
             paste(page, cells[i].close_up, {x, y + face_height + 4});
-        draw_text(page, cells[i].label, {x, y + face_height + close_height + 24}, {.height = 11});
+        draw_text(page, cells[i].label, {x, y + face_height + close_height + 24}, {.height = label_text});
     }
     return page;
 }

@@ -67,20 +67,6 @@ wound::TissueThickness tissue_at(const Wound& wound, const head::FacePoint& face
             tissue.subcutis * wound.depth_factor};
 }
 
-wound::Photograph read_photograph(const Wound& wound)
-{
-    if (wound.photo.empty()) {
-        wound::SyntheticWound synthetic;
-        synthetic.kind = wound.kind;
-        synthetic.seed = wound.seed;
-        return wound::synthesize(synthetic);
-    }
-    wound::Photograph photograph{base::read_rgb(wound.photo), {}, {}};
-    if (!wound.mask.empty())
-        photograph.mask = base::read_mask(wound.mask);
-    return photograph;
-}
-
 std::shared_ptr<const WoundLoader::Prepared> make_prepared(const Wound& wound, const std::string& name)
 {
     auto made = std::make_shared<WoundLoader::Prepared>();
@@ -160,6 +146,20 @@ bool ready(const std::future<T>& future)
 }
 
 } // namespace
+
+wound::Photograph read_photograph(const Wound& wound)
+{
+    if (wound.photo.empty()) {
+        wound::SyntheticWound synthetic;
+        synthetic.shape = wound::shape_named(wound.kind);
+        synthetic.seed = wound.seed;
+        return wound::synthesize(synthetic);
+    }
+    wound::Photograph photograph{base::read_rgb(wound.photo), {}, {}};
+    if (!wound.mask.empty())
+        photograph.mask = base::read_mask(wound.mask);
+    return photograph;
+}
 
 void check_count(std::size_t all, std::size_t components, const std::string& name)
 {

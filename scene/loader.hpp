@@ -31,6 +31,10 @@ struct LoadedHead
 /// Throws base::InputError.
 std::shared_ptr<const LoadedHead> load_head(const std::filesystem::path& file);
 
+/// The wound's photograph with its mask, if it has one; a default wound is generated. Throws
+/// base::InputError.
+wound::Photograph read_photograph(const Wound& wound);
+
 /// One wound of a photograph, fitted to the skin at its anchor.
 struct FittedWound
 {

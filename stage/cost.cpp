@@ -4,16 +4,15 @@
 #include <nlohmann/json.hpp>
 
 #include "base/statistics.hpp"
-#include "stage/measurement.hpp"
 
 namespace stage {
 namespace {
 using nlohmann::json;
+}
 
-/// Draws the scene with `shading`; the day advances by `days` over the measurement.
-MeasuredCase variant(const char* name, const Stage& stage, const optics::Shading& shading, double days = 0)
+MeasuredCase shading_case(std::string name, const Stage& stage, const optics::Shading& shading, double days)
 {
-    return {name, "", [&stage, shading, days](graph::Graph& graph, double position) {
+    return {std::move(name), "", [&stage, shading, days](graph::Graph& graph, double position) {
                 const double day = stage.scene().days.front() + days * position;
                 graph.readback("picture", stage
                                               .declare(graph, {.day = day,
@@ -23,8 +22,6 @@ MeasuredCase variant(const char* name, const Stage& stage, const optics::Shading
                                               .images.picture);
             }};
 }
-
-} // namespace
 
 json measure_cost(const gpu::Device& device, const graph::ShaderLibrary& library, const Stage& stage,
                   std::vector<std::string>& lines, int rounds)
@@ -36,12 +33,12 @@ json measure_cost(const gpu::Device& device, const graph::ShaderLibrary& library
     opaque.translucency = plain.translucency = false;
     plain.normal_map = plain.shadow = false;
     plain.ambient = {0, 0, 0};
-    const std::vector<Measurement> measured =
-        measure(device, library,
-                {variant("everything", stage, translucent), variant("without_translucency", stage, opaque),
-                 variant("ward_lambert_only", stage, plain), variant("unchanged", stage, own),
-                 variant("moving_day", stage, own, 1)},
-                {.warm_up = 1, .counted = 0, .timed = rounds});
+    const std::vector<Measurement> measured = measure(
+        device, library,
+        {shading_case("everything", stage, translucent), shading_case("without_translucency", stage, opaque),
+         shading_case("ward_lambert_only", stage, plain), shading_case("unchanged", stage, own),
+         shading_case("moving_day", stage, own, 1)},
+        {.warm_up = 1, .counted = 0, .timed = rounds});
 
     json result{{"rounds", rounds}, {"variants", json::object()}};
     std::vector<double> forward;

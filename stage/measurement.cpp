@@ -1,6 +1,7 @@
 #include "stage/measurement.hpp"
 
 #include <chrono>
+#include <ctime>
 #include <memory>
 
 namespace stage {
@@ -19,11 +20,13 @@ TimedFrame draw(gpu::Executor& executor, const MeasuredCase& drawn, double posit
         executor.forget();
     TimedFrame frame;
     const Clock::time_point start = Clock::now();
+    const std::clock_t processor = std::clock();
     graph::Graph graph;
     drawn.declare(graph, position);
     frame.start_ms = milliseconds(start - zero);
     frame.declare_ms = milliseconds(Clock::now() - start);
     frame.result = executor.run(graph);
+    frame.process_ms = 1000. * double(std::clock() - processor) / CLOCKS_PER_SEC;
     frame.result.readbacks.clear(); // saves the memory of hundreds of pictures
     frame.result.plan = {};
     drawn.afterwards();
@@ -75,6 +78,14 @@ std::vector<double> wall_ms(const Measurement& measurement)
     std::vector<double> times;
     for (const TimedFrame& frame : measurement.frames)
         times.push_back(frame.wall_ms());
+    return times;
+}
+
+std::vector<double> process_ms(const Measurement& measurement)
+{
+    std::vector<double> times;
+    for (const TimedFrame& frame : measurement.frames)
+        times.push_back(frame.process_ms);
     return times;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace optics {
 
@@ -59,6 +60,12 @@ double diffuse_fresnel_polynomial(double n_from, double n_to)
     const double n = std::max(n_from, n_to) / std::min(n_from, n_to);
     const double internal = -1.440 / (n * n) + 0.710 / n + 0.668 + 0.0636 * n;
     return n_from >= n_to ? internal : std::max(0.0, 1 - (1 - internal) * n * n);
+}
+
+double henyey_greenstein(double g, double cosine)
+{
+    const double q = 1 + g * g - 2 * g * cosine;
+    return (1 - g * g) / (4 * std::numbers::pi * q * std::sqrt(q));
 }
 
 double backward_fraction(double g)

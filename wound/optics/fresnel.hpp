@@ -15,6 +15,10 @@ double diffuse_fresnel(double n_from, double n_to);
 /// instead of 0 for equal indices.
 double diffuse_fresnel_polynomial(double n_from, double n_to);
 
+/// The phase function of Henyey & Greenstein 1941 per steradian: its integral over the sphere is 1. `cosine`
+/// of the deflection; g within -1..1.
+double henyey_greenstein(double g, double cosine);
+
 /// P(g): the part of the Henyey-Greenstein phase function in the backward half space; stable for every g in
 /// [-1, 1].
 double backward_fraction(double g);
