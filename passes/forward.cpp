@@ -64,6 +64,45 @@ void bind_wounds(graph::Draw& draw, const ForwardInput& input, bool wounded, gra
     draw.sample("reflectance_lut", lut);
 }
 
+/// The pixels in which a wound's images can show; all of them when the camera is inside the wound's reach.
+graph::Region pixels_of(const ForwardWound& wound, const shared::View& view, std::uint32_t width, std::uint32_t height)
+{
+    constexpr double margin = 2; // pixels, for rounding
+    const head::Anchor& anchor = wound.anchor;
+    const glm::dvec2 scale(wound.texture.uv_scale), offset(wound.texture.uv_offset);
+    glm::dvec2 low(width, height), high(0, 0);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec2 at = (glm::dvec2(corner & 1, corner >> 1 & 1) - offset) / scale; // on the patch, -1..1 all of it
+        const double height_of = (corner & 4) != 0 ? head::Anchor::reach : -head::Anchor::reach;
+        const glm::dvec3 point =
+            anchor.centre + anchor.half_width_m * (at.x * anchor.right + at.y * anchor.down + height_of * anchor.normal);
+        const glm::dvec4 clip = glm::dmat4(view.clip_from_world) * glm::dvec4(point, 1);
+        if (!(clip.w > 1e-3))
+            return {0, 0, width, height};
+        const glm::dvec2 pixel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(width, height);
+        low = glm::min(low, pixel - margin);
+        high = glm::max(high, pixel + margin);
+    }
+    const glm::dvec2 all(width, height);
+    const glm::uvec2 first(glm::clamp(low, glm::dvec2(0), all)), last(glm::ceil(glm::clamp(high, glm::dvec2(0), all)));
+    return {first.x, first.y, last.x - first.x, last.y - first.y};
+}
+
+/// Declares that a new day changes the picture only where the wounds are.
+void confine_wounds(graph::RasterPass& pass, std::span<const ForwardWound> wounds, const shared::View& view,
+                    const graph::ImageDesc& target)
+{
+    graph::Region all;
+    for (const ForwardWound& wound : wounds) {
+        const graph::Region region = pixels_of(wound, view, target.width, target.height);
+        all = bounds(all, region);
+        for (const graph::ImageId image : {wound.texture.color, wound.texture.state, wound.texture.relief})
+            pass.confine(image, region);
+    }
+    if (!wounds.empty())
+        pass.confine("Wounds_", all);
+}
+
 } // namespace
 
 shared::View make_view(const head::Camera& camera, const Head& head, const ViewportTile& tile)
@@ -142,6 +181,9 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
         draw.constant("OCCLUSION_MAP", part.occlusion != input.head.white);
         bind_wounds(draw, input, part.wounded, blank);
     }
+    // The images of a wound that reaches no triangle are not sampled.
+    if (std::ranges::any_of(input.head.parts, &HeadPart::wounded))
+        confine_wounds(pass, input.wounds, view, target);
     return radiance;
 }
 

@@ -33,6 +33,7 @@ graph::ImageId add_tonemap(graph::Graph& graph, graph::ImageId hdr, float exposu
     pass.uniform("ExposureBlock", block);
     pass.constant("shoulder", highlights == Highlights::SoftShoulder);
     pass.constant("transparent", backdrop.transparent);
+    pass.in_place(hdr);
     pass.dispatch(size.width, size.height);
     return encoded;
 }

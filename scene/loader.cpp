@@ -151,7 +151,7 @@ wound::Photograph read_photograph(const Wound& wound)
 {
     if (wound.photo.empty()) {
         wound::SyntheticWound synthetic;
-        synthetic.shape = wound::shape_named(wound.kind);
+        synthetic.kind = wound.kind;
         synthetic.seed = wound.seed;
         return wound::synthesize(synthetic);
     }

@@ -22,9 +22,9 @@ struct MeasuredCase
 
 struct TimedFrame
 {
-    double start_ms = 0;   // since the first frame of the measurement
-    double declare_ms = 0; // duration of declare(); the times in `result` start at its end
-    double process_ms = 0; // processor time of all threads of the process, which include a software device's
+    double start_ms = 0;     // since the first frame of the measurement
+    double declare_ms = 0;   // duration of declare(); the times in `result` start at its end
+    double process_cpu_ms = 0; // CPU time of all threads of the process, from declare() to the frame's end
     gpu::FrameResult result; // without plan and read-backs
     double wall_ms() const { return declare_ms + result.frame_ms; }
 };
@@ -51,6 +51,6 @@ std::vector<Measurement> measure(
 /// The pass's times in ms in the frames in which it ran: GPU times, or CPU times without GPU timestamps.
 std::vector<double> pass_ms(const Measurement& measurement, std::string_view pass);
 std::vector<double> wall_ms(const Measurement& measurement);
-std::vector<double> process_ms(const Measurement& measurement);
+std::vector<double> process_cpu_ms(const Measurement& measurement);
 
 } // namespace stage

@@ -17,6 +17,7 @@ json pass_costs(const gpu::FrameResult& frame)
         passes.push_back({{"name", pass.name},
                           {"state", graph::name_of(pass.state)},
                           {"reason", pass.reason},
+                          {"refreshed", pass.refreshed},
                           {"gpu_ms", pass.gpu_ms ? json(*pass.gpu_ms) : json(nullptr)},
                           {"cpu_ms", pass.cpu_ms}});
     return passes;
@@ -94,7 +95,8 @@ Drawing draw(Renderer& renderer, const Stage& stage, const scene::Shot& shot, co
     for (const passes::ViewportTile& tile : tiles_of(options)) {
         const bool first = drawing.picture.empty();
         graph::Graph graph;
-        const Frame declared = stage.declare(graph, {.day = shot.day, .tile = tile, .camera = shot.camera});
+        const Frame declared =
+            stage.declare(graph, {.day = shot.day, .tile = tile, .camera = shot.camera, .every_frame = false});
         const passes::FrameImages& images = declared.images;
         drawing.wounds = declared.wounds;
         const graph::ReadbackId picture = graph.readback("picture", images.picture);

@@ -50,7 +50,7 @@ base::Chart our_chart(const json& record)
                       .x = {.title = "processor time of a frame", .unit = "ms", .low = 0}};
     double most = 0;
     for (const json& one : record["cases"]) {
-        const double row = double(chart.y.rows.size()), ms = one["process_ms"];
+        const double row = double(chart.y.rows.size()), ms = one["process_cpu_ms"];
         chart.y.rows.push_back(one["name"]);
         chart.bars.push_back(
             {.row = row,
@@ -76,13 +76,13 @@ std::span<const PaperRate> paper_rates()
 json frame_rates(const std::vector<stage::Measurement>& measurements)
 {
     json cases = json::array();
-    const std::vector<double> first = stage::process_ms(measurements.front());
+    const std::vector<double> first = stage::process_cpu_ms(measurements.front());
     for (const stage::Measurement& one : measurements) {
-        const std::vector<double> process = stage::process_ms(one);
+        const std::vector<double> process = stage::process_cpu_ms(one);
         const double wall = base::median(stage::wall_ms(one));
         const base::RatioInterval ratio = base::ratio_of_medians(first, process, interval_misses);
         cases.push_back({{"name", one.name},
-                         {"process_ms", base::median(process)},
+                         {"process_cpu_ms", base::median(process)},
                          {"wall_ms", wall},
                          {"fps", 1000 / wall},
                          {"over_first", {{"ratio", ratio.ratio}, {"low", ratio.low}, {"high", ratio.high}}}});
@@ -129,7 +129,7 @@ void draw_frame_rate(Workbench& bench)
         const json& over = one["over_first"];
         bench.say(fmt::format("{}: {:.1f} ms of processor time, {:.1f} frames per second, {:.3f} ({:.3f} to "
                               "{:.3f}) of Lambert and Ward",
-                              one["name"].get<std::string>(), one["process_ms"].get<double>(),
+                              one["name"].get<std::string>(), one["process_cpu_ms"].get<double>(),
                               one["fps"].get<double>(), over["ratio"].get<double>(),
                               over["low"].get<double>(), over["high"].get<double>()));
     }

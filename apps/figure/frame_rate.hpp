@@ -17,7 +17,7 @@ struct PaperRate
 };
 std::span<const PaperRate> paper_rates();
 
-/// Of the interleaved cases: for each its medians of process_ms, wall_ms and frames per second; for each but
+/// Of the interleaved cases: for each its medians of process_cpu_ms, wall_ms and frames per second; for each but
 /// the first its cost over the first's with a 95 % interval, in processor time.
 nlohmann::json frame_rates(const std::vector<stage::Measurement>& measurements);
 

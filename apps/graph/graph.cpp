@@ -29,7 +29,7 @@ void print_schedules(const GraphOptions& options)
     for (const double day : scene.days) {
         graph::Graph graph;
         graph.readback("picture",
-                       stage.declare(graph, {.day = day, .tile = stage.scene().size}).images.picture);
+                       stage.declare(graph, {.day = day, .tile = stage.scene().size, .every_frame = false}).images.picture);
         const gpu::FrameResult frame = executor.run(graph);
         fmt::print("day {:g}\n{}\n", day, graph::plan_text(graph, frame.plan));
         dot = graph::plan_dot(graph, frame.plan);

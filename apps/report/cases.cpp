@@ -37,39 +37,63 @@ optics::HealingTissue tinted(optics::HealingTissue tissue, double factor)
 
 } // namespace
 
-std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage)
+const std::vector<std::string>& case_names()
+{
+    static const std::vector<std::string> names{"still",      "camera", "day",      "day-camera",
+                                                "light-drag", "tissue", "read-back"};
+    return names;
+}
+
+std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage, const std::vector<std::string>& chosen)
 {
     const scene::Scene& scene = stage.scene();
     const auto [first, last] = std::ranges::minmax(scene.days);
     const double span = last > first ? last - first : 10;
     constexpr double arc_deg = 40, tint = 0.2;
     const auto declare = [&stage](graph::Graph& graph, double day, const head::Camera& camera) {
-        const scene::Scene& now = stage.scene();
-        graph.readback(
-            "picture",
-            stage.declare(graph, {.day = day, .tile = now.size, .camera = camera, .shading = now.shading})
-                .images.picture);
+        const stage::FrameRequest request{
+            .day = day, .tile = stage.scene().size, .camera = camera, .every_frame = false};
+        const graph::ImageId picture = stage.declare(graph, request).images.picture;
+        graph.present(picture);
+        return picture;
     };
+    const auto turned = [&stage](double position) { return orbited(stage.loaded().camera(), arc_deg * position); };
     const optics::HealingTissue tissue = optics::healing_tissue_or_file(scene.tissue);
-    return {
-        {"still frame", "nothing changes",
+    std::vector<stage::MeasuredCase> cases{
+        {"still", "nothing changes",
          [=, &stage](graph::Graph& graph, double) { declare(graph, first, stage.loaded().camera()); }},
-        {"moving camera", fmt::format("the camera goes {:g} degrees around the head", arc_deg),
-         [=, &stage](graph::Graph& graph, double position) {
-             declare(graph, first, orbited(stage.loaded().camera(), arc_deg * position));
-         }},
-        {"moving day", fmt::format("the day goes from {:g} to {:g}", first, first + span),
+        {"camera", fmt::format("the camera goes {:g} degrees around the head", arc_deg),
+         [=](graph::Graph& graph, double position) { declare(graph, first, turned(position)); }},
+        {"day", fmt::format("the day goes from {:g} to {:g}; the camera stands", first, first + span),
          [=, &stage](graph::Graph& graph, double position) {
              declare(graph, first + span * position, stage.loaded().camera());
          }},
+        {"day-camera", "the day goes on while the camera turns",
+         [=](graph::Graph& graph, double position) { declare(graph, first + span * position, turned(position)); }},
+        {"light-drag", fmt::format("the first light goes {:g} degrees around the head", arc_deg),
+         [=, &stage, scene = scene::Scene(scene)](graph::Graph& graph, double position) {
+             scene::Scene lit = scene;
+             if (!lit.lights.empty())
+                 lit.lights.front().from.azimuth_deg += arc_deg * position;
+             stage.update(lit, true);
+             declare(graph, first, stage.loaded().camera());
+         },
+         [&stage, scene = scene::Scene(scene)] { stage.update(scene); }},
         // Not on the first day: then a wound has the photograph's colours, whatever the tissue.
-        {"moving tissue",
+        {"tissue",
          fmt::format("the tissue's absorption grows by {:g} %, on day {:g}", 100 * tint, first + span / 3),
          [=, &stage](graph::Graph& graph, double position) {
              stage.set_tissue(tinted(tissue, 1 + tint * position));
              declare(graph, first + span / 3, stage.loaded().camera());
          },
-         [=, &stage] { stage.set_tissue(tissue); }}};
+         [=, &stage] { stage.set_tissue(tissue); }},
+        {"read-back", "nothing changes; the picture is copied to the host",
+         [=, &stage](graph::Graph& graph, double) {
+             graph.readback("picture", declare(graph, first, stage.loaded().camera()));
+         }}};
+    if (!chosen.empty())
+        std::erase_if(cases, [&](const stage::MeasuredCase& one) { return std::ranges::find(chosen, one.name) == chosen.end(); });
+    return cases;
 }
 
 std::size_t triangles_drawn(const graph::Graph& graph)

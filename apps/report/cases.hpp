@@ -1,5 +1,6 @@
-// The four cases of a report: nothing changes, or the camera, the day or the tissue changes.
+// The cases of a report: nothing changes, or the camera, the day, a light or the tissue changes.
 #pragma once
+#include <string>
 #include <vector>
 
 #include "stage/measurement.hpp"
@@ -7,10 +8,14 @@
 
 namespace report_command {
 
-/// Still frame and moving camera show the scene's first day. Moving day goes from the first to the last, or
-/// over ten days when there is only one; moving tissue shows a day at a third of that span. The stage must
-/// outlive the cases; each frame leaves it unchanged.
-std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage);
+const std::vector<std::string>& case_names();
+
+/// The cases of those names; all of them when there is none. Where the day stands it is the scene's first; where
+/// it goes on, it goes to the last, or over ten days when there is only one; the tissue changes on a day at a
+/// third of that span. Frames are drawn as a window draws them: nothing runs when nothing has changed, and
+/// only `read-back` copies the picture to the host. The stage must outlive the cases; each frame leaves it
+/// unchanged.
+std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage, const std::vector<std::string>& chosen);
 
 /// Number of triangles that the frame's forward pass draws.
 std::size_t triangles_drawn(const graph::Graph& graph);

@@ -21,6 +21,7 @@ json pass_json(const PassSummary& pass)
             {"gpu_ms", to_json(pass.gpu_ms)},
             {"cpu_ms", to_json(pass.cpu_ms)},
             {"share", pass.share},
+            {"refreshed", pass.refreshed},
             {"bytes_written", pass.bytes_written},
             {"invocations", invocations}};
 }
@@ -43,7 +44,10 @@ json samples_json(const CaseSummary& summary, const stage::Measurement& measurem
             gpu[summed.name].push_back(gpu_ms);
             cpu[summed.name].push_back(cpu_ms);
         }
-    return {{"wall_ms", stage::wall_ms(measurement)}, {"gpu_ms", gpu}, {"cpu_ms", cpu}};
+    return {{"wall_ms", stage::wall_ms(measurement)},
+            {"process_cpu_ms", stage::process_cpu_ms(measurement)},
+            {"gpu_ms", gpu},
+            {"cpu_ms", cpu}};
 }
 
 // ---- The trace
@@ -140,6 +144,8 @@ json report_json(const json& facts, const std::vector<CaseSummary>& summaries,
         report["cases"].push_back({{"name", summary.name},
                                    {"what", summary.what},
                                    {"wall_ms", to_json(summary.wall_ms)},
+                                   {"process_cpu_ms", to_json(summary.process_cpu_ms)},
+                                   {"frames_per_second", 1e3 / summary.wall_ms.median},
                                    {"sum_ms", to_json(summary.sum_ms)},
                                    {"envelope_ms", to_json(summary.envelope_ms)},
                                    {"coverage", summary.coverage},

@@ -84,13 +84,13 @@ std::string pass_table(const CaseSummary& summary)
 {
     std::string table =
         "<div class=\"scroll\"><table><tr><th>pass<th>GPU ms<th>p5 .. p95<th>CPU ms<th>p5 .. p95<th>share"
-        "<th>ran<th>skipped<th>culled<th>kB written<th>vertex<th>fragment<th>compute</tr>\n";
+        "<th>ran<th>skipped<th>culled<th>refreshed<th>kB written<th>vertex<th>fragment<th>compute</tr>\n";
     for (const PassSummary& pass : summary.passes) {
         table += fmt::format("<tr><td title=\"{}\">{}</td>{}{}<td>{:.1f} %</td><td>{}</td><td>{}</td>"
-                             "<td>{}</td><td>{:.0f}</td>",
+                             "<td>{}</td><td>{:.1f} %</td><td>{:.0f}</td>",
                              base::escaped(pass.reason), base::escaped(pass.name), spread_cells(pass.gpu_ms),
                              spread_cells(pass.cpu_ms), 100 * pass.share, pass.ran, pass.skipped, pass.culled,
-                             pass.bytes_written / 1e3);
+                             100 * pass.refreshed, pass.bytes_written / 1e3);
         table += pass.invocations
                      ? fmt::format("<td>{}</td><td>{}</td><td>{}</td></tr>\n", pass.invocations->vertex,
                                    pass.invocations->fragment, pass.invocations->compute)
@@ -108,9 +108,12 @@ std::string pass_table(const CaseSummary& summary)
 std::string case_section(const CaseSummary& summary, const stage::Measurement& measurement,
                          const PassColors& colors)
 {
-    std::string text = fmt::format("<h2>{}</h2><p>{}. Frame {:.2f} ms ({:.2f} to {:.2f}).",
+    std::string text = fmt::format("<h2>{}</h2><p>{}. Frame {:.2f} ms ({:.2f} to {:.2f}), {}; {:.2f} CPU ms "
+                                   "({:.2f} to {:.2f}) of all threads.",
                                    base::escaped(summary.name), base::escaped(summary.what),
-                                   summary.wall_ms.median, summary.wall_ms.p5, summary.wall_ms.p95);
+                                   summary.wall_ms.median, summary.wall_ms.p5, summary.wall_ms.p95,
+                                   rate_text(summary.wall_ms.median), summary.process_cpu_ms.median,
+                                   summary.process_cpu_ms.p5, summary.process_cpu_ms.p95);
     if (summary.sum_ms)
         text +=
             fmt::format(" On the GPU the passes take {:.2f} ms in sum, {:.2f} ms from the start of the first "
@@ -173,7 +176,7 @@ std::string report_page(const json& facts, const std::vector<CaseSummary>& summa
            fmt::format(
                "<h2>The scene</h2><details><summary>as JSON</summary><pre>{}</pre></details>\n"
                "<p class=\"faint\">Shares are GPU and recording time / wall clock from declaring a "
-               "frame to its picture on the host. Method: docs/report.md of Cicatrix.</p>\n</body></html>\n",
+               "frame to its end. Method: docs/report.md of Cicatrix.</p>\n</body></html>\n",
                base::escaped(facts.at("scene").dump(2)));
 }
 

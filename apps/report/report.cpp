@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -30,7 +31,7 @@ struct ReportOptions : scene::SceneOptions
 {
     std::filesystem::path out = "out/report", against;
     std::optional<int> frames;
-    std::vector<std::string> sweeps;
+    std::vector<std::string> sweeps, cases;
 };
 
 /// Replaces paths by file names: a report can be published without revealing folders.
@@ -174,7 +175,7 @@ void report(const ReportOptions& options)
         return;
     }
     stage::Stage stage(device, stage::Stage::prepare(scene));
-    const std::vector<stage::MeasuredCase> cases = report_cases(stage);
+    const std::vector<stage::MeasuredCase> cases = report_cases(stage, options.cases);
     graph::Graph first;
     cases.front().declare(first, 0);
     facts["head"] = {{"triangles", triangles_drawn(first)}};
@@ -232,16 +233,23 @@ void add(CLI::App& program)
     command
         ->add_option(
             "--sweep", options->sweeps,
-            "Instead of the four cases, measure how the cost grows with: size, triangles, wounds, points "
+            "Instead of the cases, measure how the cost grows with: size, triangles, wounds, points "
             "(control points), lut (reflectance table); separate several by commas")
         ->delimiter(',')
         ->check(CLI::IsMember(sweep_names()))
         ->type_name("KIND")
         ->excludes(against);
+    command
+        ->add_option("--cases", options->cases,
+                     fmt::format("Only these cases, separated by commas: {}", fmt::join(case_names(), ", ")))
+        ->delimiter(',')
+        ->check(CLI::IsMember(case_names()))
+        ->type_name("NAME");
     command->footer("Examples: cicatrix report --out before\n"
                     "          cicatrix report --out after --against before/report.json\n"
                     "          cicatrix report --sweep size,wounds --frames 20\n"
-                    "Cases: still frame, moving camera, moving day, moving tissue. Method: docs/report.md");
+                    "          cicatrix report --cases camera,day --frames 100\n"
+                    "Method: docs/report.md");
     command->callback([options] { report(*options); });
 }
 

@@ -52,7 +52,7 @@ PassSummary& find_or_add(std::vector<PassSummary>& passes, const std::string& na
 /// Fills the summary of the pass `summary.name` from all frames of a measurement.
 void fill(PassSummary& summary, const stage::Measurement& measurement)
 {
-    std::vector<double> gpu, cpu, bytes, vertex, fragment, compute;
+    std::vector<double> gpu, cpu, bytes, refreshed, vertex, fragment, compute;
     for (const stage::TimedFrame& frame : measurement.frames)
         for (const PassResult& pass : frame.result.passes) {
             if (pass.name != summary.name)
@@ -67,6 +67,7 @@ void fill(PassSummary& summary, const stage::Measurement& measurement)
                 gpu.push_back(*pass.gpu_ms);
             cpu.push_back(pass.cpu_ms);
             bytes.push_back(double(pass.bytes_written));
+            refreshed.push_back(pass.refreshed);
             summary.share +=
                 (pass.gpu_ms.value_or(0) + pass.cpu_ms) / frame.wall_ms() / double(measurement.frames.size());
         }
@@ -79,8 +80,10 @@ void fill(PassSummary& summary, const stage::Measurement& measurement)
             }
     summary.gpu_ms = base::spread_of(gpu);
     summary.cpu_ms = base::spread_of(cpu);
-    if (!bytes.empty())
+    if (!bytes.empty()) {
         summary.bytes_written = base::quantile(bytes, 0.5);
+        summary.refreshed = base::quantile(refreshed, 0.5);
+    }
     const auto middle = [](const std::vector<double>& counts) {
         return std::uint64_t(std::llround(base::quantile(counts, 0.5)));
     };
@@ -116,6 +119,15 @@ std::string spread_text(const std::optional<base::Spread>& spread)
 
 } // namespace
 
+std::string rate_text(double wall_ms)
+{
+    constexpr double budget_60_ms = 1000. / 60, budget_30_ms = 1000. / 30;
+    return fmt::format("{:.1f} frames/s, {}", 1e3 / wall_ms,
+                       wall_ms <= budget_60_ms   ? "within 16.7 ms"
+                       : wall_ms <= budget_30_ms ? "within 33.3 ms"
+                                                 : "above 33.3 ms");
+}
+
 CaseSummary summarise(const stage::Measurement& measurement)
 {
     CaseSummary summary{.name = measurement.name, .what = measurement.what};
@@ -145,6 +157,7 @@ CaseSummary summarise(const stage::Measurement& measurement)
     std::ranges::stable_sort(summary.passes, std::ranges::greater{}, &PassSummary::share);
     const std::vector<double> walls = stage::wall_ms(measurement);
     summary.wall_ms = base::spread_of(walls).value();
+    summary.process_cpu_ms = base::spread_of(stage::process_cpu_ms(measurement)).value();
     summary.sum_ms = base::spread_of(sums);
     summary.envelope_ms = base::spread_of(envelopes);
     for (std::size_t i = 0; i < part_names.size(); ++i)
@@ -158,17 +171,20 @@ CaseSummary summarise(const stage::Measurement& measurement)
 std::string to_text(const CaseSummary& summary)
 {
     std::string text = fmt::format("{}: {}\n", summary.name, summary.what);
-    text += fmt::format("  {:<20} {:>8} {:>8} {:>8}  {:>8} {:>8} {:>8}  {:>6}  {:>13}  {:>9}  {}\n", "pass",
-                        "GPU ms", "p5", "p95", "CPU ms", "p5", "p95", "share", "ran/skip/cull", "kB out",
-                        "invocations");
+    text += fmt::format("  {:<20} {:>8} {:>8} {:>8}  {:>8} {:>8} {:>8}  {:>6}  {:>13}  {:>9}  {:>9}  {}\n", "pass",
+                        "GPU ms", "p5", "p95", "CPU ms", "p5", "p95", "share", "ran/skip/cull", "refreshed",
+                        "kB out", "invocations");
     for (const PassSummary& pass : summary.passes)
-        text += fmt::format("  {:<20} {}  {}  {:5.1f}%  {:>13}  {:>9}  {}\n", pass.name,
+        text += fmt::format("  {:<20} {}  {}  {:5.1f}%  {:>13}  {:>9}  {:>9}  {}\n", pass.name,
                             spread_text(pass.gpu_ms), spread_text(pass.cpu_ms), 100 * pass.share,
                             fmt::format("{}/{}/{}", pass.ran, pass.skipped, pass.culled),
+                            pass.ran > 0 ? fmt::format("{:.1f} %", 100 * pass.refreshed) : "-",
                             pass.ran > 0 ? fmt::format("{:.0f}", pass.bytes_written / 1e3) : "-",
                             invocations_text(pass.invocations));
-    text += fmt::format("  frame {:.2f} ms ({:.2f} to {:.2f})", summary.wall_ms.median, summary.wall_ms.p5,
-                        summary.wall_ms.p95);
+    text += fmt::format("  frame {:.2f} ms ({:.2f} to {:.2f}), {}; {:.2f} CPU ms ({:.2f} to {:.2f}) of all threads",
+                        summary.wall_ms.median, summary.wall_ms.p5, summary.wall_ms.p95,
+                        rate_text(summary.wall_ms.median), summary.process_cpu_ms.median, summary.process_cpu_ms.p5,
+                        summary.process_cpu_ms.p95);
     if (summary.sum_ms)
         text += fmt::format("; passes {:.2f} ms in sum, {:.2f} from the first start to the last end",
                             summary.sum_ms->median, summary.envelope_ms->median);

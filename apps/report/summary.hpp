@@ -18,6 +18,7 @@ struct PassSummary
     std::optional<base::Spread> cpu_ms;          // recording its commands, over the same frames
     double share = 0;                            // (GPU + recording time) / wall clock, mean over all frames
     double bytes_written = 0;                    // median over the frames in which it ran
+    double refreshed = 0; // share of its images' texels that it wrote, median over the frames in which it ran
     std::optional<gpu::Invocations> invocations; // medians over the counted frames
 };
 
@@ -32,7 +33,8 @@ struct FramePart
 struct CaseSummary
 {
     std::string name, what;
-    base::Spread wall_ms; // from declaring the frame to its picture on the host
+    base::Spread wall_ms; // from declaring the frame to its end
+    base::Spread process_cpu_ms; // CPU time of all threads of the process in that time
     std::optional<base::Spread> sum_ms,
         envelope_ms;                 // GPU: sum of the passes; time from the first start to the last end
     double coverage = 0;             // sum of the passes' shares
@@ -40,6 +42,9 @@ struct CaseSummary
     std::vector<FramePart> parts;    // in chronological order, as in part_names
     std::size_t median_frame = 0;    // index of the frame whose wall clock is nearest to the median
 };
+
+/// "32.1 frames/s, within 33.3 ms": what a frame of this wall clock is good for.
+std::string rate_text(double wall_ms);
 
 CaseSummary summarise(const stage::Measurement& measurement);
 

@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <cmath>
 #include <cstring>
+#include <fmt/format.h>
 #include <stdexcept>
 
 namespace gpu {
@@ -73,6 +75,21 @@ class Label
     VkCommandBuffer commands_;
 };
 
+void compare_readbacks(const FrameResult& refreshed, const FrameResult& whole)
+{
+    for (std::size_t i = 0; i < whole.readbacks.size(); ++i) {
+        const FrameResult::Readback &one = refreshed.readbacks[i], &other = whole.readbacks[i];
+        const auto [differs, to] = std::ranges::mismatch(one.bytes, other.bytes);
+        if (differs == one.bytes.end())
+            continue;
+        const std::size_t texel =
+            std::size_t(differs - one.bytes.begin()) / graph::find_format(one.desc.format)->bytes;
+        throw std::logic_error(fmt::format("{} is outdated at texel {}, {}: a pass that it depends on confines a "
+                                           "change to a region that is too small",
+                                           one.name, texel % one.desc.width, texel / one.desc.width));
+    }
+}
+
 } // namespace
 
 const char* name_of(Alignment alignment)
@@ -129,7 +146,12 @@ Executor::~Executor() = default; // frames_ is destroyed first and waits for fra
 
 FrameResult Executor::run(const graph::Graph& graph)
 {
-    return finish(submit(graph));
+    FrameResult result = finish(submit(graph));
+    if (measuring_.check_regions) {
+        forget();
+        compare_readbacks(result, finish(submit(graph)));
+    }
+    return result;
 }
 
 FrameToken Executor::submit(const graph::Graph& graph)
@@ -305,12 +327,13 @@ void Executor::record_passes(const graph::Graph& graph, Frame& frame, VkCommandB
         frame.slot.begin_count();
         const graph::Pass& pass = graph.passes[planned.pass];
         if (const auto* compute = std::get_if<graph::ComputePass>(&pass))
-            recorder.record(*compute);
+            recorder.record(*compute, planned);
         else
             recorder.record(std::get<graph::RasterPass>(pass), planned);
         frame.slot.end_count();
         frame.slot.timestamp();
-        result.bytes_written = bytes_written(graph, planned);
+        result.refreshed = refreshed_share(graph, planned);
+        result.bytes_written = std::uint64_t(std::llround(result.refreshed * double(bytes_written(graph, planned))));
         result.cpu_begin_ms = milliseconds(start - frame.start);
         result.cpu_ms = milliseconds(Clock::now() - start);
     }

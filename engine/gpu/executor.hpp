@@ -41,6 +41,7 @@ struct PassResult
     double cpu_ms = 0;                  // recording; includes compiling pipelines on the first run
     double cpu_begin_ms = 0;
     std::uint64_t bytes_written = 0;        // to its declared images that are stored; 0 unless it ran
+    double refreshed = 0;                   // share of its images that it wrote, 0..1
     std::optional<Invocations> invocations; // of passes that ran, if counted and supported
 };
 
@@ -92,6 +93,9 @@ struct Measuring
 {
     bool align = false; // calibrated timestamps, if supported
     bool count = false; // shader invocations, if supported; may slow the passes down
+    /// run() runs every pass a second time, whole, and throws std::logic_error when a readback differs: a pass
+    /// declares a wrong region (graph::Reach).
+    bool check_regions = false;
 };
 
 /// Identifies a submitted frame.

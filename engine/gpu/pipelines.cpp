@@ -170,7 +170,10 @@ VkPipeline Pipelines::make_compute(const PipelineKey& key, const graph::ShaderGr
 {
     const Stage stage(device_.handle(), *group.stages.front(), key);
     const VkComputePipelineCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, .stage = stage.info, .layout = layout};
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .flags = VK_PIPELINE_CREATE_DISPATCH_BASE_BIT, // a pass may write a region
+        .stage = stage.info,
+        .layout = layout};
     VkPipeline made = VK_NULL_HANDLE;
     check(vkCreateComputePipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &made),
           fmt::format("compile {}", key.shader));

@@ -30,7 +30,7 @@ void Recorder::barriers(std::span<const graph::ImageBarrier> list) const
         vkCmdPipelineBarrier2(commands_, &dependency);
 }
 
-void Recorder::record(const graph::ComputePass& pass)
+void Recorder::record(const graph::ComputePass& pass, const graph::PassPlan& planned)
 {
     const Pipeline& pipeline = pipelines_.get(pass);
     const VkDescriptorSet set = write_set(pipeline, graph::BindingScope(pass));
@@ -38,28 +38,31 @@ void Recorder::record(const graph::ComputePass& pass)
     vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set, 0,
                             nullptr);
     const auto& local = pipeline.group->stages.front()->interface.local_size;
-    vkCmdDispatch(commands_, (pass.width + local[0] - 1) / local[0], (pass.height + local[1] - 1) / local[1],
-                  1);
+    const graph::Region region = planned.region.value_or(graph::Region{0, 0, pass.width, pass.height});
+    const std::uint32_t first_x = region.x / local[0], first_y = region.y / local[1];
+    vkCmdDispatchBase(commands_, first_x, first_y, 0, (region.x + region.width + local[0] - 1) / local[0] - first_x,
+                      (region.y + region.height + local[1] - 1) / local[1] - first_y, 1);
 }
 
 void Recorder::record(const graph::RasterPass& pass, const graph::PassPlan& planned)
 {
     const graph::ImageId first = pass.colors.empty() ? pass.depth_image : pass.colors.front().image;
     const graph::ImageDesc& desc = graph_.images[first.index].desc;
-    const VkExtent2D extent{desc.width, desc.height};
     const VkViewport viewport{
         .width = static_cast<float>(desc.width), .height = static_cast<float>(desc.height), .maxDepth = 1.0f};
-    const VkRect2D scissor{.extent = extent};
-    begin_rendering(pass, planned, extent);
+    const graph::Region region = planned.region.value_or(graph::Region{0, 0, desc.width, desc.height});
+    // Attachments keep what lies outside the render area.
+    const VkRect2D area{{std::int32_t(region.x), std::int32_t(region.y)}, {region.width, region.height}};
+    begin_rendering(pass, planned, area);
     vkCmdSetViewport(commands_, 0, 1, &viewport);
-    vkCmdSetScissor(commands_, 0, 1, &scissor);
+    vkCmdSetScissor(commands_, 0, 1, &area);
     for (const graph::Draw& draw : pass.draws)
         record_draw(draw, pass);
     vkCmdEndRendering(commands_);
 }
 
 void Recorder::begin_rendering(const graph::RasterPass& pass, const graph::PassPlan& planned,
-                               VkExtent2D extent) const
+                               const VkRect2D& area) const
 {
     std::vector<VkRenderingAttachmentInfo> colors;
     for (std::size_t i = 0; i < pass.colors.size(); ++i) {
@@ -85,7 +88,7 @@ void Recorder::begin_rendering(const graph::RasterPass& pass, const graph::PassP
     if (pass.depth_image.valid())
         depth.imageView = images_[pass.depth_image.index].view;
     const VkRenderingInfo rendering{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                                    .renderArea = {.extent = extent},
+                                    .renderArea = area,
                                     .layerCount = 1,
                                     .colorAttachmentCount = static_cast<std::uint32_t>(colors.size()),
                                     .pColorAttachments = colors.data(),

@@ -24,7 +24,7 @@ class Recorder
              VkCommandBuffer commands, std::span<const BoundImage> images);
 
     void barriers(std::span<const graph::ImageBarrier> barriers) const;
-    void record(const graph::ComputePass& pass);
+    void record(const graph::ComputePass& pass, const graph::PassPlan& planned);
     void record(const graph::RasterPass& pass, const graph::PassPlan& planned);
     /// Copies each image to its offset (bytes) in `to` and makes the data available to the host.
     void copy_out(std::span<const graph::Graph::Readback> readbacks, const Buffer& to,
@@ -33,7 +33,7 @@ class Recorder
   private:
     void record_draw(const graph::Draw& draw, const graph::RasterPass& pass);
     void begin_rendering(const graph::RasterPass& pass, const graph::PassPlan& planned,
-                         VkExtent2D extent) const;
+                         const VkRect2D& area) const;
     VkDescriptorSet write_set(const Pipeline& pipeline, const graph::BindingScope& scope);
     VkDescriptorBufferInfo upload(const graph::ShaderGroup::Binding& binding,
                                   const graph::Bindings::Data& data);

@@ -75,12 +75,13 @@ VkImageMemoryBarrier2 vulkan_barrier(const Barrier& barrier, VkImage image,
             .subresourceRange = range};
 }
 
-std::optional<Barrier> advance(AccessState& state, Usage usage)
+std::optional<Barrier> advance(AccessState& state, Usage usage, bool keep)
 {
     const AccessRow& next = access_row(usage);
     if (next.writes) {
         Barrier barrier = after_last_access(state, next);
-        barrier.old_layout = VK_IMAGE_LAYOUT_UNDEFINED; // a writer replaces the whole contents
+        if (!keep)
+            barrier.old_layout = VK_IMAGE_LAYOUT_UNDEFINED;
         state = {
             .layout = next.layout, .write_stages = next.stages, .write_access = next.access & all_writes};
         return barrier;

@@ -59,7 +59,8 @@ struct Barrier
 VkImageMemoryBarrier2 vulkan_barrier(const Barrier& barrier, VkImage image,
                                      const VkImageSubresourceRange& range);
 
-/// Updates `state` for one more access and returns the barrier needed before that access, if any.
-std::optional<Barrier> advance(AccessState& state, Usage usage);
+/// Updates `state` for one more access and returns the barrier needed before that access, if any. `keep`: a writer
+/// replaces only a part of the contents.
+std::optional<Barrier> advance(AccessState& state, Usage usage, bool keep = false);
 
 } // namespace graph

@@ -6,10 +6,12 @@
 // uniforms, buffers, draws). A pass is skipped when its key and inputs equal
 // those of its last run, and culled when nothing needs its outputs.
 //
-// Every image has exactly one writer, which writes all of it; passes may be declared in any order.
+// Every image has exactly one writer, which writes all of it; passes may be declared in any order. A pass that runs
+// because of inputs whose changes it has confined to a region writes that region only: the rest stands.
 #pragma once
 #include "engine/graph/bindings.hpp"
 #include "engine/graph/mesh.hpp"
+#include "engine/graph/region.hpp"
 
 #include <array>
 #include <cstdint>
@@ -47,7 +49,29 @@ struct ExternalImage
     std::uint64_t content = 0;
 };
 
-class ComputePass : public Bindings
+/// What of a pass's images a change of an input can touch; without a word about it: everything. The images that the
+/// pass writes must have one size. A wrong region leaves outdated texels: Measuring::check_regions finds them.
+class Reach
+{
+  public:
+    /// A change of a uniform block or buffer touches no texel outside `region`; neither does a change from an earlier
+    /// frame's value outside the regions of both frames.
+    void confine(std::string_view block, const Region& region) { confined.push_back({std::string(block), {}, region}); }
+    /// The same of a sampled image's contents.
+    void confine(ImageId image, const Region& region) { confined.push_back({{}, image, region}); }
+    /// Every texel depends on the texel of `image` at the same place, and on no other of it.
+    void in_place(ImageId image) { confined.push_back({{}, image, std::nullopt}); }
+
+    struct Confined
+    {
+        std::string block; // empty: `image`
+        ImageId image;
+        std::optional<Region> region; // none: in place
+    };
+    std::vector<Confined> confined;
+};
+
+class ComputePass : public Bindings, public Reach
 {
   public:
     /// Number of invocations; the group count follows from the shader's local size.
@@ -74,7 +98,7 @@ class Draw : public Bindings
 };
 
 /// Clip space is Vulkan's: y points down, depth runs from 0 to 1.
-class RasterPass : public Bindings
+class RasterPass : public Bindings, public Reach
 {
   public:
     /// Colour target, cleared to `clear` first. With `resolve`, `image`

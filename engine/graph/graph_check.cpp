@@ -30,6 +30,7 @@ class GraphChecker
         for (const Pass& pass : graph_.passes) {
             check_accesses(pass);
             std::visit([&](const auto& p) { check_pass(p); }, pass);
+            check_reach(pass);
         }
         check_writers();
         check_outputs();
@@ -150,6 +151,37 @@ class GraphChecker
         if (!pass.stored.empty())
             complain("pass {}: stores to an image; only a compute pass can", pass.name);
         check_targets(pass);
+    }
+
+    /// A region is one of all images that the pass writes.
+    void check_reach(const Pass& pass)
+    {
+        const auto& confined = std::visit([](const Reach& reach) -> const auto& { return reach.confined; }, pass);
+        if (confined.empty())
+            return;
+        std::vector<ImageDesc> outputs;
+        std::set<std::uint32_t> read;
+        for (const auto& [id, usage] : accesses(pass))
+            if (known(id)) {
+                if (access_row(usage).writes)
+                    outputs.push_back(image(id).desc);
+                else
+                    read.insert(id.index);
+            }
+        for (const ImageDesc& desc : outputs)
+            if (desc.width != outputs.front().width || desc.height != outputs.front().height)
+                complain("pass {}: confines a change to a region, but writes images of several sizes", name_of(pass));
+        for (const Reach::Confined& input : confined) {
+            const bool block = std::visit(
+                [&](const Bindings& bindings) { return find_named(bindings.data, input.block) != nullptr; }, pass);
+            const std::string name = input.block.empty() ? image_name(input.image) : input.block;
+            if (input.block.empty() ? !read.contains(input.image.index) : !block)
+                complain("pass {}: confines changes of {}, which it does not read", name_of(pass), name);
+            for (const ImageDesc& desc : outputs)
+                if (input.region && (input.region->x + input.region->width > desc.width ||
+                                     input.region->y + input.region->height > desc.height))
+                    complain("pass {}: confines changes of {} to a region beyond its images", name_of(pass), name);
+        }
     }
 
     void check_targets(const RasterPass& pass)

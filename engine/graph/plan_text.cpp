@@ -99,7 +99,10 @@ std::string plan_text(const Graph& graph, const Plan& plan)
     std::string text = "passes, in order of execution\n";
     for (const PassPlan& planned : plan.passes) {
         const Pass& pass = graph.passes[planned.pass];
-        text += fmt::format("  {:<24} {:<8} {}\n", planned.name, name_of(planned.state), planned.reason);
+        text += fmt::format("  {:<24} {:<8} {}{}\n", planned.name, name_of(planned.state), planned.reason,
+                            planned.region && planned.state == PassState::Run
+                                ? fmt::format("; refreshed: {:.1f} %", 100 * refreshed_share(graph, planned))
+                                : "");
         if (const auto reads = accessed_names(graph, pass, false); !reads.empty())
             text += fmt::format("      reads    {}\n", fmt::join(reads, ", "));
         text += fmt::format("      writes   {}\n", fmt::join(accessed_names(graph, pass, true), ", "));

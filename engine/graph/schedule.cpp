@@ -164,9 +164,14 @@ class Scheduler
         std::vector<KeyPart> key = full_key(position);
         const bool always = std::visit([](const auto& p) { return p.always; }, graph_.passes[planned.pass]);
         const std::string outdated = update_outputs(position, key, always);
+        planned.region = always || outdated.empty() ? std::nullopt : changed_region(position, key);
         if (outdated.empty()) {
             planned.state = PassState::Skipped;
             planned.reason = "unchanged";
+        } else if (planned.region && planned.region->empty()) {
+            planned.state = PassState::Skipped;
+            planned.reason = "unaffected: " + why_run(planned.name, key, outdated);
+            set_versions(position);
         } else {
             planned.reason = always ? "every frame" : why_run(planned.name, key, outdated);
             plan_run(position);
@@ -190,7 +195,20 @@ class Scheduler
                 key.push_back({"input " + image_name(access.image), content_versions_[access.image.index]});
         }
         add_samplers(key, graph_.passes[plan_.passes[position].pass]);
+        add_reach(key, graph_.passes[plan_.passes[position].pass]);
         return key;
+    }
+
+    void add_reach(std::vector<KeyPart>& key, const Pass& pass) const
+    {
+        const auto& confined = std::visit([](const Reach& reach) -> const auto& { return reach.confined; }, pass);
+        for (const Reach::Confined& input : confined)
+            for (KeyPart& part : key)
+                if (input.image.valid() ? part.what == "input " + image_name(input.image)
+                                        : part.what == "uniform " + input.block || part.what == "buffer " + input.block) {
+                    part.region = input.region;
+                    part.in_place = !input.region;
+                }
     }
 
     /// Shader name, filter and number of images of each sampled binding.
@@ -215,9 +233,7 @@ class Scheduler
     /// first needed output that is not up to date; empty: all are.
     std::string update_outputs(std::uint32_t position, const std::vector<KeyPart>& key, bool always)
     {
-        base::Hash hash;
-        for (const KeyPart& part : key)
-            hash.add(part.what).add(part.hash);
+        base::Hash hash = hash_of(key);
         if (always)
             hash.add(plan_.memory.frames); // differs in every frame
         std::string outdated;
@@ -225,12 +241,77 @@ class Scheduler
             if (!writes(access))
                 continue;
             const std::uint32_t image = access.image.index;
-            content_versions_[image] = base::Hash(hash).add(image_name(access.image)).value();
+            content_versions_[image] = version_of(hash, access.image);
             if (outdated.empty() && plan_.images[image].needed &&
                 states_[image].content_version != content_versions_[image])
                 outdated = image_name(access.image);
         }
         return outdated;
+    }
+
+    static base::Hash hash_of(const std::vector<KeyPart>& key)
+    {
+        base::Hash hash;
+        for (const KeyPart& part : key)
+            hash.add(part.what).add(part.hash);
+        return hash;
+    }
+
+    std::uint64_t version_of(const base::Hash& key, ImageId image) const
+    {
+        return base::Hash(key).add(image_name(image)).value();
+    }
+
+    /// The region outside of which the pass's images already hold what it would write; none: unknown.
+    std::optional<Region> changed_region(std::uint32_t position, const std::vector<KeyPart>& key) const
+    {
+        const auto known = before_.passes.find(plan_.passes[position].name);
+        if (known == before_.passes.end() || known->second.size() != key.size())
+            return std::nullopt;
+        const std::vector<KeyPart>& last = known->second;
+        for (const ImageAccess& access : accesses_[position])
+            if (writes(access) && plan_.images[access.image.index].needed &&
+                states_[access.image.index].content_version != version_of(hash_of(last), access.image))
+                return std::nullopt; // not what the last run wrote
+        Region changed;
+        for (std::size_t i = 0; i < key.size(); ++i) {
+            if (key[i] == last[i])
+                continue;
+            if (key[i].what != last[i].what)
+                return std::nullopt;
+            const auto touched = key[i].in_place ? refreshed_since(position, key[i], last[i].hash) : key[i].region;
+            if (!touched || (!key[i].in_place && !last[i].region))
+                return std::nullopt;
+            changed = bounds(changed, key[i].in_place ? *touched : bounds(*touched, *last[i].region));
+        }
+        return changed;
+    }
+
+    /// What of an input differs from its contents of version `since`; none: unknown.
+    std::optional<Region> refreshed_since(std::uint32_t position, const KeyPart& input, std::uint64_t since) const
+    {
+        for (const ImageAccess& access : accesses_[position])
+            if (!writes(access) && input.what == "input " + image_name(access.image)) {
+                const ImageState& state = states_[access.image.index];
+                if (since != 0 && state.refreshed_from == since)
+                    return state.refreshed;
+            }
+        return std::nullopt;
+    }
+
+    /// Gives the images that the pass writes the versions of what they hold from now on.
+    void set_versions(std::uint32_t position)
+    {
+        const std::optional<Region>& region = plan_.passes[position].region;
+        for (const ImageAccess& access : accesses_[position]) {
+            if (!writes(access))
+                continue;
+            ImageState& state = states_[access.image.index];
+            state.refreshed_from = region ? state.content_version : 0;
+            state.refreshed = region.value_or(Region{});
+            state.content_version =
+                plan_.images[access.image.index].needed ? content_versions_[access.image.index] : 0;
+        }
     }
 
     std::string why_run(const std::string& pass, const std::vector<KeyPart>& key,
@@ -255,11 +336,11 @@ class Scheduler
             const std::uint32_t image = access.image.index;
             if (graph_.images[image].external)
                 continue; // always in the layout for sampling
-            if (const auto barrier = advance(states_[image].access, access.usage))
+            const bool keep = planned.region && plan_.images[image].needed;
+            if (const auto barrier = advance(states_[image].access, access.usage, keep))
                 planned.barriers.push_back({access.image, *barrier});
-            if (writes(access))
-                states_[image].content_version = plan_.images[image].needed ? content_versions_[image] : 0;
         }
+        set_versions(position);
         const auto store = [&](ImageId id) {
             return id.valid() && plan_.images[id.index].needed ? VK_ATTACHMENT_STORE_OP_STORE
                                                                : VK_ATTACHMENT_STORE_OP_DONT_CARE;
@@ -300,6 +381,20 @@ Plan schedule(const Graph& graph, const Memory& memory)
 {
     throw_if_any(check_graph(graph));
     return Scheduler(graph, memory).run();
+}
+
+double refreshed_share(const Graph& graph, const PassPlan& planned)
+{
+    if (planned.state != PassState::Run)
+        return 0;
+    if (!planned.region)
+        return 1;
+    for (const ImageAccess& access : accesses(graph.passes[planned.pass]))
+        if (access_row(access.usage).writes) {
+            const ImageDesc& desc = graph.images[access.image.index].desc;
+            return double(planned.region->texels()) / (double(desc.width) * desc.height);
+        }
+    return 1;
 }
 
 const char* name_of(PassState state)

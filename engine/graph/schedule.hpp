@@ -18,7 +18,10 @@ struct KeyPart
 {
     std::string what;
     std::uint64_t hash = 0;
-    bool operator==(const KeyPart&) const = default;
+    /// What a change touches (Reach); none: everything.
+    std::optional<Region> region;
+    bool in_place = false;
+    bool operator==(const KeyPart& other) const { return what == other.what && hash == other.hash; }
 };
 
 struct ImageState
@@ -27,6 +30,8 @@ struct ImageState
     VkImageUsageFlags usage = 0;
     AccessState access;
     std::uint64_t content_version = 0; // 0: contents undefined
+    std::uint64_t refreshed_from = 0;  // the version that differs from this one in `refreshed` only; 0: none
+    Region refreshed;
 };
 
 /// State carried from one frame to the next. Value-initialised: no image exists yet.
@@ -57,6 +62,7 @@ struct PassPlan
     PassState state = PassState::Run;
     std::string reason; // "unchanged", "unused: nothing samples lut", "changed: uniform day", "first run",
                         // "every frame"
+    std::optional<Region> region; // of its images that is written; none: all
     std::vector<ImageBarrier> barriers;                            // before the pass
     std::vector<VkAttachmentStoreOp> color_stores, resolve_stores; // by colour target
     VkAttachmentStoreOp depth_store = VK_ATTACHMENT_STORE_OP_DONT_CARE;
@@ -80,6 +86,9 @@ struct Plan
 
 /// Throws std::logic_error when the declaration is wrong; see graph_check.hpp.
 Plan schedule(const Graph& graph, const Memory& memory);
+
+/// Texels that a running pass writes over the texels of its images, 0..1.
+double refreshed_share(const Graph& graph, const PassPlan& planned);
 
 const char* name_of(PassState state);
 

@@ -141,14 +141,14 @@ TEST(FrameRates, AreMediansAndRatiosToTheFirstCase)
         stage::TimedFrame frame;
         frame.declare_ms = 1;
         frame.result.frame_ms = 19;
-        frame.process_ms = 30;
+        frame.process_cpu_ms = 30;
         measured[0].frames.push_back(frame);
-        frame.process_ms = 33;
+        frame.process_cpu_ms = 33;
         measured[1].frames.push_back(frame);
     }
     const nlohmann::json cases = frame_rates(measured);
     EXPECT_EQ(cases[0]["fps"], 50);
-    EXPECT_EQ(cases[1]["process_ms"], 33);
+    EXPECT_EQ(cases[1]["process_cpu_ms"], 33);
     EXPECT_NEAR(cases[1]["over_first"]["ratio"].get<double>(), 1.1, 1e-12);
 }
 
@@ -183,7 +183,7 @@ TEST(FigureCommand, DrawsAllFiguresOnOnePage)
     EXPECT_EQ(rates["cases"].size(), 3u);
     EXPECT_EQ(rates["paper"].size(), paper_rates().size());
     for (const auto& one : rates["cases"])
-        EXPECT_GT(one["process_ms"], 0);
+        EXPECT_GT(one["process_cpu_ms"], 0);
 }
 
 TEST(FigureCommand, RefusesFiguresThatThePaperDoesNotHave)

@@ -122,6 +122,52 @@ TEST_F(ExecutorTest, UpToDateTellsWhetherAFrameWouldRunAPass)
     EXPECT_FALSE(executor.up_to_date(always));
 }
 
+/// A new tint, and a new step, touch the region only, says the pass.
+graph::Graph spot_frame(float step, float tint, const graph::Region& region)
+{
+    graph::Graph graph;
+    const graph::ImageId filled = add_fill(graph, {.step = step});
+    auto& fill = std::get<graph::ComputePass>(graph.passes.back());
+    fill.confine("params", region);
+    graph.readback("shown", add_show(graph, filled, glm::vec4(tint)));
+    auto& show = std::get<graph::RasterPass>(graph.passes.back());
+    show.confine("Tint", region);
+    show.in_place(filled);
+    return graph;
+}
+
+TEST_F(ExecutorTest, AConfinedChangeWritesItsRegionAndKeepsTheRest)
+{
+    constexpr graph::Region region{3, 2, 9, 7};
+    gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
+    executor.run(spot_frame(1, 1, region));
+    const gpu::FrameResult second = executor.run(spot_frame(2, 3, region));
+    EXPECT_NEAR(second.pass("show").refreshed, 63 / 240., 1e-12);
+    EXPECT_EQ(second.pass("show").bytes_written, 63u * 16);
+    const cv::Mat4f shown = second.mat({0});
+    for (int y = 0; y < shown.rows; ++y)
+        for (int x = 0; x < shown.cols; ++x) {
+            const bool inside = x >= 3 && x < 12 && y >= 2 && y < 9;
+            // Compute writes whole work groups of the region: 8 x 8 of them cover this image's first 16 columns.
+            ASSERT_EQ(shown(y, x)[0], inside ? 3 * (0.25f + 2 * float(x)) : 0.25f + float(x)) << x << ' ' << y;
+        }
+}
+
+TEST_F(ExecutorTest, TheCheckFindsARegionThatIsTooSmall)
+{
+    gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
+    executor.measure({.check_regions = true});
+    executor.run(spot_frame(1, 1, {0, 0, 20, 12}));
+    EXPECT_NO_THROW(executor.run(spot_frame(1, 2, {0, 0, 20, 12})));
+    try {
+        executor.run(spot_frame(1, 3, {0, 0, 20, 11}));
+        executor.run(spot_frame(1, 4, {0, 0, 20, 11}));
+        FAIL() << "not found";
+    } catch (const std::logic_error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("shown is outdated at texel 0, 11"));
+    }
+}
+
 TEST_F(ExecutorTest, APrefixDistinguishesTwoCopiesOfTheSamePass)
 {
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());

@@ -104,6 +104,25 @@ TEST(GraphCheck, RefusesDoubleNamesWritersAndReadbacks)
     EXPECT_THAT(text, HasSubstr("readback picture: declared twice"));
 }
 
+TEST(GraphCheck, RefusesRegionsOfWhatAPassDoesNotReadOrThatItsImagesDoNotHold)
+{
+    graph::Graph graph;
+    const graph::ImageId small = graph.image("small", {8, 8, target.format}), large = graph.image("large", target);
+    graph::ComputePass& pass = graph.compute("pass", "x.comp");
+    pass.uniform("Block", 1.0f);
+    pass.store("small", small);
+    pass.store("large", large);
+    pass.dispatch(8, 8);
+    pass.confine("Block", {0, 0, 9, 8});
+    pass.confine("Blok", {0, 0, 1, 1});
+    pass.in_place(graph.import("albedo", graph::ExternalImage{target, VK_NULL_HANDLE, 1}));
+    const std::string text = mistakes(graph);
+    EXPECT_THAT(text, HasSubstr("pass pass: confines a change to a region, but writes images of several sizes"));
+    EXPECT_THAT(text, HasSubstr("pass pass: confines changes of Block to a region beyond its images"));
+    EXPECT_THAT(text, HasSubstr("pass pass: confines changes of Blok, which it does not read"));
+    EXPECT_THAT(text, HasSubstr("pass pass: confines changes of albedo, which it does not read"));
+}
+
 TEST(GraphCheck, RefusesToFilterDepth)
 {
     graph::Graph graph;

@@ -58,6 +58,22 @@ using StageTest = gpu_test::Test;
 
 } // namespace
 
+TEST_F(StageTest, ANewDayDrawsThePictureOnlyWhereTheWoundIs)
+{
+    for (const std::uint32_t samples : {1u, 4u}) {
+        scene::Scene scene = small::scene(small::head());
+        scene.samples = samples;
+        Window window(scene);
+        window.executor.measure({.check_regions = true}); // throws where the picture is not the whole frame's
+        window.executor.run(window.frame(0));
+        for (const double day : {2.5, 9., 30., 200., 1.}) {
+            const gpu::FrameResult frame = window.executor.run(window.frame(day));
+            EXPECT_LT(frame.pass("forward").refreshed, .3) << "day " << day;
+            EXPECT_GT(frame.pass("forward").refreshed, 0) << "day " << day;
+        }
+    }
+}
+
 TEST_F(StageTest, RunsNothingWhenTheSceneIsTheSame)
 {
     Window window(small::scene(small::head()));
