@@ -18,6 +18,8 @@ struct Vertex
     glm::vec4 tangent;  // unit, w = +1 or -1 (glTF convention)
     glm::vec2 uv;       // v down
     float occlusion = 1; // share of surroundings that reach it; of materials without a map (head/occlusion.hpp)
+    /// 1/m, of the two principal curvatures: mean (convex: > 0), root mean square; compute_curvature() sets it.
+    glm::vec2 curvature{0.0f};
 };
 
 enum class AlphaMode : std::uint8_t

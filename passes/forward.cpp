@@ -44,7 +44,8 @@ shared::Part part_params(const HeadPart& part)
             .normal_scale = part.normal_scale,
             .specular = float(gloss.specular),
             .slope = float(gloss.slope),
-            .translucency = part.surface == head::Surface::Eye ? 0.5f : 1.f};
+            .translucency = part.surface == head::Surface::Eye ? 0.5f : 1.f,
+            .scattering = part.surface == head::Surface::Skin ? 1.f : 0.f};
 }
 
 /// Binds every wound sampler of the shader; unused ones get the head's white texel.
@@ -143,7 +144,7 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
 
     pass.constant("LIGHTS", std::uint32_t(input.lights.size()));
     pass.constant("LAMBERT", shading.lambertian());
-    pass.constant("TRANSLUCENCY", shading.translucent());
+    pass.constant("TRANSPORT", std::uint32_t(shading.drawn_transport()));
     pass.constant("NORMAL_MAP", shading.normal_map);
     pass.constant("SHADOWS", input.shadows.casting);
     pass.constant("AMBIENT", shading.ambient != base::Color(0, 0, 0));
@@ -152,7 +153,7 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
     pass.constant("TRANSLUCENCY_MODEL", std::uint32_t(shading.translucency_model));
     pass.constant("BLEND_MODEL", std::uint32_t(shading.blend_model));
     pass.uniform("View_", view);
-    pass.uniform("Shading_", shading_params(shading));
+    pass.uniform("Shading_", shading_params(shading, input.scattering_length_mm));
     pass.uniform("Lighting_", lighting(input.lights));
     pass.uniform("Wounds_", wound_frames(input.wounds));
     pass.uniform("Shadows_", input.shadows.lights);

@@ -46,6 +46,7 @@ struct ForwardInput
     Shadows shadows;                       // of the lights
     graph::ImageId shadow_depth;           // used when a light casts a shadow
     bool every_frame = true;               // run the pass even when nothing has changed
+    base::Color scattering_length_mm{0, 0, 0}; // of the skin (optics/transport.hpp)
 };
 
 /// Adds one raster pass. The result is linear radiance premultiplied by alpha, RGBA16F; alpha is 1 on the

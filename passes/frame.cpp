@@ -43,7 +43,7 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
     std::vector<optics::Light> lights;
     std::ranges::copy_if(input.lights, std::back_inserter(lights),
                          [](const optics::Light& light) { return light.strength != base::Color(0, 0, 0); });
-    ForwardInput forward{input.head, seen, lights, {}, {}, input.every_frame};
+    ForwardInput forward{input.head, seen, lights, {}, {}, input.every_frame, input.scattering_length_mm};
     if (input.shading.shadow && (input.shading.lambertian() || input.shading.glossy()))
         forward.shadows = fit_shadows(lights, input.head.min, input.head.max, boxes_in_picture(input));
     if (forward.shadows.casting != 0)

@@ -35,6 +35,7 @@ struct FrameInput
     std::uint32_t samples = 1;
     float exposure_stops = 0; // each stop doubles the light
     bool every_frame = true;  // draw the head even when nothing has changed, for measurements
+    base::Color scattering_length_mm{0, 0, 0}; // of the skin (optics/transport.hpp)
 };
 
 struct FrameImages

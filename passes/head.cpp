@@ -49,6 +49,7 @@ gpu::MeshBuffer upload_mesh(const gpu::Device& device, std::span<const head::Ver
         {"tangent", 4, offsetof(head::Vertex, tangent)},
         {"uv", 2, offsetof(head::Vertex, uv)},
         {"occlusion", 1, offsetof(head::Vertex, occlusion)},
+        {"curvature", 2, offsetof(head::Vertex, curvature)},
     }};
     static constexpr graph::VertexLayout layout{sizeof(head::Vertex), attributes};
     return {device, layout, std::as_bytes(vertices), indices, name};

@@ -10,7 +10,7 @@
 
 namespace passes {
 
-shared::ShadingParams shading_params(const optics::Shading& shading)
+shared::ShadingParams shading_params(const optics::Shading& shading, const base::Color& scattering_length_mm)
 {
     return {
         .rho_d = static_cast<float>(shading.rho_d),
@@ -26,6 +26,7 @@ shared::ShadingParams shading_params(const optics::Shading& shading)
         .fresnel_scale = static_cast<float>(optics::fresnel_scale(shading)),
         .grazing = static_cast<float>(optics::grazing_reflectance(shading)),
         .mirrored = head::to_glm(optics::fresnel_scale(shading) * shading.ambient),
+        .scattering = head::to_glm(1e-3 * scattering_length_mm),
     };
 }
 

@@ -8,7 +8,9 @@
 
 namespace passes {
 
-shared::ShadingParams shading_params(const optics::Shading& shading);
+/// `scattering_length_mm`: of the skin (optics/transport.hpp).
+shared::ShadingParams shading_params(const optics::Shading& shading,
+                                     const base::Color& scattering_length_mm = {0, 0, 0});
 
 /// Throws base::InputError for more than shared::MAX_LIGHTS.
 shared::Lighting lighting(std::span<const optics::Light> lights);

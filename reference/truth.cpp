@@ -204,6 +204,7 @@ std::uint64_t truth_key(const scene::LoadedScene& scene, const Request& request)
     shown.size = request.size;
     shown.samples = 1;
     shown.exposure_stops = 0;
+    shown.shading.transport = optics::Transport::Lambert; // the rasteriser's choice
     base::Hash hash;
     hash.add(picture_version).add(samples_per_pass).add(scene::to_json(shown).dump());
     hash_files(hash, scene);

@@ -225,9 +225,9 @@ const std::vector<Field<optics::Shading>>& shading_fields()
                 "shadow", [](auto& s) -> auto& { return s.shadow; }, "the lights' cast shadows"),
             choice<Shading>(
                 "transport", optics::transport_names, [](auto& s) -> auto& { return s.transport; },
-                "how light leaves the skin: by the translucent term of eq. (6) too, which also lights what "
-                "no "
-                "light reaches, or where it entered"),
+                "how light leaves the skin: by the translucent term of eq. (6) too, which also lights what no "
+                "light reaches; where it entered; or spread by the tissue, by curvature at bends, at the edges of "
+                "shadows, and through thin parts"),
             choice<Shading>(
                 "specular_model", optics::specular_model_names,
                 [](auto& s) -> auto& { return s.specular_model; },

@@ -10,6 +10,7 @@
 #include "base/image_io.hpp"
 #include "base/input_error.hpp"
 #include "head/albedo_under.hpp"
+#include "head/curvature.hpp"
 #include "head/default_head.hpp"
 #include "head/materials.hpp"
 #include "head/occlusion.hpp"
@@ -201,6 +202,7 @@ std::shared_ptr<const LoadedHead> load_head(const std::filesystem::path& chosen)
     head->key = base::file_version(file);
     auto model = std::make_shared<head::Model>(head::load_model(file));
     head::normalise_size(*model);
+    head::compute_curvature(*model);
     for (const std::string& note : model->notes)
         head->notes.push_back(fmt::format("{}: {}", file.string(), note));
     head->face = head::find_face(*model);

@@ -12,7 +12,7 @@
 
 layout(constant_id = 0) const uint WOUNDS = 0; // number of projected wounds
 layout(constant_id = 1) const bool LAMBERT = true;
-layout(constant_id = 2) const bool TRANSLUCENCY = true;
+layout(constant_id = 2) const uint TRANSPORT = TRANSPORT_PREINTEGRATED;
 layout(constant_id = 3) const bool WARD = true;
 layout(constant_id = 4) const bool NORMAL_MAP = true;
 layout(constant_id = 5) const uint SHADOWS = 0; // bit i: light i casts a shadow
@@ -30,8 +30,9 @@ layout(location = 2) in vec4 v_tangent;
 layout(location = 3) in vec2 v_uv;
 layout(location = 4) in vec3 v_subsurface;
 layout(location = 5) in vec4 v_shadow_place[2]; // of the first two lights
-layout(location = 7) in vec2 v_shadow_slope[2];
-layout(location = 9) in float v_occlusion;
+layout(location = 7) in vec4 v_shadow_slope[2];
+layout(location = 9) in vec2 v_curvature; // 1/m
+layout(location = 10) in float v_occlusion;
 layout(location = 0) out vec4 out_color;
 
 layout(scalar, binding = 0) uniform View_ { View view; };
@@ -90,7 +91,9 @@ void main()
     const Finish finish = Finish(skin.wetness, skin.slope_variance);
     const vec3 local_viewer = to_viewer * frame;
     const vec3 visible = AMBIENT ? visibility(open * skin.occlusion, params.rho_d * skin.albedo) : vec3(0);
-    vec3 diffuse = params.ambient * visible; // times rho_d already, and the albedo C below
+    const DiffuseSkin body =
+        diffuse_skin(TRANSPORT, params.rho_d * skin.albedo, part.scattering * params.scattering, v_curvature);
+    vec3 diffuse = params.ambient * visible * skin.albedo * body.gain; // ambient: times rho_d already
     vec3 mirrored = vec3(0), bounced = vec3(0);
     for (uint i = 0; i < LIGHTS; ++i)
     {
@@ -98,35 +101,35 @@ void main()
         const vec3 local_light = light.direction * frame;
         if (BOUNCE)
             bounced += light.strength * (0.5 + 0.5 * local_light.z);
+        Shade shade = NO_SHADE;
         if ((SHADOWS >> i & 1) != 0)
         {
             // The place is interpolated for two lights: to compute it per pixel doubles the cost of the pass.
-            vec4 place = v_shadow_place[min(i, 1)];
-            vec2 slope = v_shadow_slope[min(i, 1)];
+            ShadowLookup lookup = ShadowLookup(v_shadow_place[min(i, 1)], v_shadow_slope[min(i, 1)]);
             if (LIGHTS > 2 && i > 1)
-            {
-                place = shadow_place(shadows[i], v_position, geometric, light.direction);
-                slope = shadow_slope(shadows[i], v_position, geometric, light.direction);
-            }
-            light.strength *= shadow_visibility(shadow_map, place, slope);
+                lookup = shadow_lookup(shadows[i], v_position, geometric, light.direction,
+                                       TRANSPORT == TRANSPORT_PREINTEGRATED, v_curvature.y);
+            shade = shadow_sample(shadow_map, shadows[i], lookup);
         }
         if (LAMBERT)
-            diffuse += surface_diffuse(params, light, local_light);
+            diffuse += leaving(TRANSPORT, body, light.strength, local_light, local_viewer, dot(geometric, light.direction), shade);
+        light.strength *= shade.visibility;
         if (WARD)
             mirrored += light.strength * specular_times_cosine(SPECULAR_MODEL, WARD_MODEL, WOUNDS > 0, params, finish, local_light,
                                                                local_viewer);
     }
     if (BOUNCE)
-        diffuse += params.rho_d * params.rho_d * skin.albedo * bounced * (1 - open) * BOUNCED_SHARE;
+        diffuse += body.albedo * body.albedo * bounced * (1 - open) * BOUNCED_SHARE;
     // Translucency is multiplied by ambient occlusion, except in the published model.
-    if (TRANSLUCENCY)
-        diffuse += v_subsurface * part.translucency * (TRANSLUCENCY_MODEL == TRANSLUCENCY_PUBLISHED ? 1 : open * skin.occlusion);
+    if (TRANSPORT == TRANSPORT_PUBLISHED)
+        diffuse += v_subsurface * skin.albedo *
+                   (part.translucency * (TRANSLUCENCY_MODEL == TRANSLUCENCY_PUBLISHED ? 1 : open * skin.occlusion));
     // The head's own shadows dim the lights' highlights, but a wound's hollow is in no shadow map.
     mirrored *= only_ward ? 1 : skin.occlusion;
     if (AMBIENT && WARD && SPECULAR_MODEL == SPECULAR_SKIN)
         mirrored += params.mirrored * (gloss * ambient_specular(params, finish, local_viewer.z) * skin.occlusion *
                     specular_occlusion(open, local_viewer.z) *
                     above_horizon(2 * local_viewer.z * dot(frame[2], geometric) - dot(to_viewer, geometric)));
-    const vec3 radiance = diffuse * skin.albedo + mirrored;
+    const vec3 radiance = diffuse + mirrored;
     out_color = vec4(finite_radiance(radiance), albedo.a);
 }

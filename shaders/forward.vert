@@ -7,7 +7,7 @@
 #include "lib/shadow.glsl"
 #include "shared/frame.h"
 
-layout(constant_id = 2) const bool TRANSLUCENCY = true;
+layout(constant_id = 2) const uint TRANSPORT = TRANSPORT_PREINTEGRATED;
 layout(constant_id = 5) const uint SHADOWS = 0; // bit i: light i casts a shadow
 layout(constant_id = 8) const uint TRANSLUCENCY_MODEL = TRANSLUCENCY_BOUNDED;
 layout(constant_id = 10) const uint LIGHTS = 1;
@@ -22,6 +22,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
 layout(location = 4) in float occlusion;
+layout(location = 5) in vec2 curvature; // 1/m, mean and root mean square
 
 layout(location = 0) out vec3 v_position;
 layout(location = 1) out vec3 v_normal;
@@ -29,8 +30,9 @@ layout(location = 2) out vec4 v_tangent;
 layout(location = 3) out vec2 v_uv;
 layout(location = 4) out vec3 v_subsurface;
 layout(location = 5) out vec4 v_shadow_place[2]; // of the first two lights
-layout(location = 7) out vec2 v_shadow_slope[2];
-layout(location = 9) out float v_occlusion;
+layout(location = 7) out vec4 v_shadow_slope[2];
+layout(location = 9) out vec2 v_curvature;
+layout(location = 10) out float v_occlusion;
 
 void main()
 {
@@ -40,19 +42,18 @@ void main()
     v_uv = uv;
     v_occlusion = occlusion;
     v_subsurface = vec3(0);
-    if (TRANSLUCENCY)
+    if (TRANSPORT == TRANSPORT_PUBLISHED)
         for (uint i = 0; i < LIGHTS; ++i)
             v_subsurface += subsurface_diffuse(TRANSLUCENCY_MODEL, shading, lighting.light[i], position);
+    v_curvature = curvature;
     for (uint i = 0; i < 2; ++i)
     {
-        v_shadow_place[i] = vec4(0);
-        v_shadow_slope[i] = vec2(0);
+        ShadowLookup lookup = ShadowLookup(vec4(0), vec4(0));
         if ((SHADOWS >> i & 1) != 0)
-        {
-            const vec3 to_light = sample_light(lighting.light[i], position).direction;
-            v_shadow_place[i] = shadow_place(shadows[i], position, normal, to_light);
-            v_shadow_slope[i] = shadow_slope(shadows[i], position, normal, to_light);
-        }
+            lookup = shadow_lookup(shadows[i], position, normal, sample_light(lighting.light[i], position).direction,
+                                   TRANSPORT == TRANSPORT_PREINTEGRATED, curvature.y);
+        v_shadow_place[i] = lookup.place;
+        v_shadow_slope[i] = lookup.slope;
     }
     gl_Position = view.clip_from_world * vec4(position, 1);
 }

@@ -5,6 +5,8 @@
 
 #include "base/input_error.hpp"
 #include "passes/split.hpp"
+#include "wound/optics/tissue_choice.hpp"
+#include "wound/optics/transport.hpp"
 #include "wound/reflectance_table.hpp"
 
 namespace stage {
@@ -167,6 +169,7 @@ passes::LutTissue Stage::make_lut(const Set& set, const scene::PlacedWound& woun
 void Stage::set_tissue(const optics::HealingTissue& tissue)
 {
     set_.loaded.tissue = tissue;
+    set_.loaded.scattering_length_mm = optics::scattering_length_mm(optics::layers_of(tissue));
     for (std::size_t i = 0; i < set_.wounds.size(); ++i)
         set_.wounds[i].tissue = make_lut(set_, set_.loaded.wounds[i]);
 }
@@ -212,7 +215,8 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
                                              .tile = request.tile,
                                              .samples = scene.samples,
                                              .exposure_stops = float(scene.exposure_stops),
-                                             .every_frame = request.every_frame});
+                                             .every_frame = request.every_frame,
+                                             .scattering_length_mm = set_.loaded.scattering_length_mm});
     return frame;
 }
 

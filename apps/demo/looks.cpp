@@ -68,7 +68,7 @@ void draw_terms(optics::Shading& shading)
     bool translucent = shading.translucency && shading.transport == optics::Transport::Published;
     if (ImGui::Checkbox("translucency", &translucent)) {
         shading.translucency = translucent;
-        shading.transport = translucent ? optics::Transport::Published : optics::Transport::Lambert;
+        shading.transport = translucent ? optics::Transport::Published : optics::skin_shading().transport;
     }
     ImGui::SameLine();
     ImGui::Checkbox("gloss", &shading.ward);

@@ -3,6 +3,7 @@
 #define LIB_SHADING_GLSL
 #include "lib/specular.glsl"
 #include "lib/translucency.glsl"
+#include "lib/transport.glsl"
 #include "shared/shading.h"
 
 struct LightSample
@@ -27,15 +28,9 @@ LightSample sample_light(Light light, vec3 position)
     return LightSample((light.position - position) / metres, ratio * ratio * light.strength);
 }
 
-// The three terms of eq. (8) are separate functions, so that a shader computes only those it uses. Apply
-// shadow to surface_diffuse and the highlight (lib/specular.glsl); the paper does not shadow translucent light. local =
-// direction * mat3(t, b, n).
-
-// Without the albedo C.
-vec3 surface_diffuse(ShadingParams p, LightSample light, vec3 local_light)
-{
-    return p.rho_d * max(local_light.z, 0.0) * light.strength;
-}
+// The three terms of eq. (8) are separate functions, so that a shader computes only those it uses: leaving()
+// (lib/transport.glsl) is the diffuse one. Apply shadow to the highlight (lib/specular.glsl); the paper does not shadow
+// translucent light. local = direction * mat3(t, b, n).
 
 // Without the albedo C. Uses I at the reference distance, because eq. (6) is the fall-off. It varies so
 // slowly over the surface that it is evaluated per vertex: for vertices 3 mm apart the error is below .1 %.

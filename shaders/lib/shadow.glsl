@@ -2,6 +2,7 @@
 // itself, because Vulkan does not guarantee linear filtering of depth images.
 #ifndef LIB_SHADOW_GLSL
 #define LIB_SHADOW_GLSL
+#include "shared/shading.h"
 #include "shared/shadow.h"
 
 // The lookup position of a surface point in the clip space of the depth image. It is linear in the position, so
@@ -33,14 +34,67 @@ vec2 shadow_slope(Shadow shadow, vec3 position, vec3 normal, vec3 to_light)
     return clamp(slope / (plane.z < 0.0 ? -facing : facing), -steepest, steepest);
 }
 
-// Share of the light that reaches the point, 0..1: a 3 x 3 box of bilinear comparisons, i.e. 4 x 4 texels
-// weighted (1-f, 1, 1, f) along each axis, fetched by four gathers. `depth` needs a nearest, clamping
-// sampler. Points outside the image are lit; inside it lie only points of the head, each in its light's tile. slope: shadow_slope().
-float shadow_visibility(sampler2D depth, vec4 place, vec2 slope)
+// A body does not cast a shadow on itself behind its terminator: light that spreads under the skin gets there by another
+// way. A point that turns away from the light is replaced by the one where the light's ray through it enters the body,
+// which is taken for a ball of the point's curvature (1/m). normal, to_light: unit.
+void enter_body(inout vec3 position, inout vec3 normal, vec3 to_light, float curvature)
 {
+    float behind = 2.0 * max(-dot(normal, to_light), 0.0);
+    position += min(behind / max(curvature, 1.0), DEEPEST_BODY) * to_light;
+    normal += behind * to_light;
+}
+
+// How much deeper than `place` a position is, in the depth image's units, and metres per such unit towards the light.
+vec2 shadow_deeper(Shadow shadow, vec4 place, vec3 position, vec3 to_light)
+{
+    const float step = 0.01;
+    vec4 here = shadow.clip_from_world * vec4(position, 1.0);
+    vec4 nearer = shadow.clip_from_world * vec4(position + step * to_light, 1.0);
+    float depth = here.z / here.w;
+    return vec2(depth - place.z / place.w, step / max(depth - nearer.z / nearer.w, 1e-9));
+}
+
+// Where a point is looked up, shadow_place(), and x, y: shadow_slope(), z, w: shadow_deeper(). `enters`: light enters the
+// body, for transport preintegrated; else z and w are 0 and 1.
+struct ShadowLookup
+{
+    vec4 place, slope;
+};
+ShadowLookup shadow_lookup(Shadow shadow, vec3 position, vec3 normal, vec3 to_light, bool enters, float curvature)
+{
+    vec3 at = position;
+    if (enters)
+        enter_body(at, normal, to_light, curvature);
+    vec4 place = shadow_place(shadow, at, normal, to_light);
+    vec2 depth = enters ? shadow_deeper(shadow, place, position, to_light) : vec2(0.0, 1.0);
+    return ShadowLookup(place, vec4(shadow_slope(shadow, at, normal, to_light), depth));
+}
+
+// What lies between a light and the point.
+struct Shade
+{
+    float visibility; // share of the light that reaches the point, by the filter of the shadow map, 0..1
+    float filter_m;   // half the width of that filter
+    float through_m;  // skin between the point and where the light enters it
+};
+const Shade NO_SHADE = Shade(1.0, 1.0, 1e3);
+
+vec4 before(float z, vec4 first)
+{
+    return max(z - first, 0.0);
+}
+
+// A 3 x 3 box of bilinear comparisons, i.e. 4 x 4 texels weighted (1-f, 1, 1, f) along each axis, fetched by four
+// gathers. `depth` needs a nearest, clamping sampler. Points outside the image are lit; inside it lie only points of the
+// head, each in its light's tile.
+Shade shadow_sample(sampler2D depth, Shadow shadow, ShadowLookup lookup)
+{
+    const vec4 place = lookup.place;
+    const vec2 slope = lookup.slope.xy;
+    const float deeper = lookup.slope.z;
     vec3 seen = place.xyz / place.w;
     if (!(place.w > 0.0 && all(lessThanEqual(abs(seen.xy), vec2(1.0))) && seen.z <= 1.0)) // true for NaN too
-        return 1.0;
+        return NO_SHADE;
 
     vec2 size = vec2(textureSize(depth, 0));
     vec2 texel = (seen.xy * 0.5 + 0.5) * size - 0.5;
@@ -50,15 +104,21 @@ float shadow_visibility(sampler2D depth, vec4 place, vec2 slope)
     float origin = seen.z - dot(slope, f + 1.0);
     vec4 z = origin + slope.x * vec4(0.0, 1.0, 1.0, 0.0) + slope.y * vec4(1.0, 1.0, 0.0, 0.0);
     vec2 next = 2.0 * slope;
-    vec4 lit00 = step(z, textureGather(depth, first));
-    vec4 lit10 = step(z + next.x, textureGather(depth, first + vec2(2.0, 0.0) / size));
-    vec4 lit01 = step(z + next.y, textureGather(depth, first + vec2(0.0, 2.0) / size));
-    vec4 lit11 = step(z + next.x + next.y, textureGather(depth, first + vec2(2.0, 2.0) / size));
+    vec4 z00 = z, z10 = z + next.x, z01 = z + next.y, z11 = z + next.x + next.y;
+    vec4 first00 = textureGather(depth, first), first10 = textureGather(depth, first + vec2(2.0, 0.0) / size);
+    vec4 first01 = textureGather(depth, first + vec2(0.0, 2.0) / size),
+         first11 = textureGather(depth, first + vec2(2.0, 2.0) / size);
     // The weights are (1-f, 1 | 1, f).
     vec2 g = 1.0 - f;
-    float sum = dot(lit00, vec4(g.x, 1.0, g.y, g.x * g.y)) + dot(lit10, vec4(1.0, f.x, f.x * g.y, g.y)) +
-                dot(lit01, vec4(g.x * f.y, f.y, 1.0, g.x)) + dot(lit11, vec4(f.y, f.x * f.y, f.x, 1.0));
-    return sum / 9.0;
+    vec4 w00 = vec4(g.x, 1.0, g.y, g.x * g.y), w10 = vec4(1.0, f.x, f.x * g.y, g.y);
+    vec4 w01 = vec4(g.x * f.y, f.y, 1.0, g.x), w11 = vec4(f.y, f.x * f.y, f.x, 1.0);
+    float lit = dot(step(z00, first00), w00) + dot(step(z10, first10), w10) + dot(step(z01, first01), w01) +
+                dot(step(z11, first11), w11);
+    // Without the slope: at a body's outline, where the receiver's plane is steep, that would make it thin.
+    float own = seen.z + deeper;
+    float behind = dot(before(own, first00), w00) + dot(before(own, first10), w10) + dot(before(own, first01), w01) +
+                   dot(before(own, first11), w11);
+    return Shade(lit / 9.0, 1.75 * shadow.texel * place.w, behind / 9.0 * lookup.slope.w);
 }
 
 #endif

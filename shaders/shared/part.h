@@ -13,6 +13,7 @@ struct Part
     float specular;      // multiplies rho_s: an eye is smooth, a brow has no highlight
     float slope;         // multiplies the slopes of Ward's lobe
     float translucency;  // multiplies rho_ts
+    float scattering;    // 1: light enters, as it does skin; 0: it does not
 };
 
 #ifdef __cplusplus

@@ -29,7 +29,8 @@ namespace shared {
     MODEL(1, Corrected, corrected, BLEND_CORRECTED) /* the terms of eq. (4), changed to be W at r = 0 and S at r = 1 */
 #define TRANSPORTS(MODEL)                                                                                                       \
     MODEL(0, Published, published, TRANSPORT_PUBLISHED) /* and by eq. (6): on all sides of the head, without a shadow */        \
-    MODEL(1, Lambert, lambert, TRANSPORT_LAMBERT)       /* light leaves where it entered */
+    MODEL(1, Lambert, lambert, TRANSPORT_LAMBERT)       /* light leaves where it entered */                                    \
+    MODEL(2, Preintegrated, preintegrated, TRANSPORT_PREINTEGRATED) /* spread by the tissue: Penner 2011, Jimenez 2010 */
 
 #define MODEL_CONSTANT(number, enumerator, name, constant) CONSTANT constant = number;
 WARD_MODELS(MODEL_CONSTANT)
@@ -49,6 +50,9 @@ CONSTANT LIGHT_POINT = 1;
 CONSTANT LIGHT_POINT_WITHOUT_FALLOFF = 2;
 CONSTANT MAX_LIGHTS = 8;
 
+NUMBER PORE_WIDTH = 0.5e-3; // m, of the detail that a normal map shows
+NUMBER DEEPEST_BODY = 0.01; // m, behind its terminator a body does not shadow itself so far
+
 struct ShadingParams
 {
     float rho_d, rho_ts, rho_s;     // diffuse, translucent, specular; 0..1
@@ -59,6 +63,7 @@ struct ShadingParams
     float fresnel_scale;            // SPECULAR_SKIN: factor on Fresnel's reflectance, 1 for rho_s = .2
     float grazing;                  // SPECULAR_SKIN: c of ambient_specular()
     vec3 mirrored;                  // SPECULAR_SKIN: fresnel_scale x linear radiance of the surroundings
+    vec3 scattering;                // m, between two scatterings in the tissue (optics::scattering_length_mm)
 };
 
 struct Light

@@ -398,24 +398,6 @@ TEST(ShadingInput, BadLightsAreRefused)
     refused([](optics::Light& l) { l.paper_units_per_m = -1; });
 }
 
-// A hollow sphere with an opening, of which every point sees the share `open`: what enters is reflected until it
-// has left. Summed bounce by bounce.
-TEST(Shading, InterreflectionIsTheSumOfAllBounces)
-{
-    for (const double open : {1., .7, .3})
-        for (const double albedo : {0., .2, .8}) {
-            double sum = 0, light = 1;
-            for (int bounce = 0; bounce < 500; ++bounce, light *= (1 - open) * albedo)
-                sum += light;
-            const base::Color factor = optics::interreflection(open, base::Color(albedo, 0, 1));
-            EXPECT_NEAR(factor[0], sum, 1e-12);
-            EXPECT_EQ(factor[1], 1);
-            EXPECT_NEAR(factor[2], 1 / open, 1e-12);
-            EXPECT_LE(open * factor[2], 1 + 1e-12) << "white skin under an even sky is as bright as the sky";
-        }
-    EXPECT_EQ(optics::interreflection(0, base::Color(1, 1, 1)), base::Color(10, 10, 10));
-}
-
 TEST(Shading, ATermWithoutACoefficientIsNotDrawn)
 {
     optics::Shading shading = optics::published_shading();

@@ -26,7 +26,8 @@ optics::Shading skin_with(double alpha)
     return shading;
 }
 
-constexpr std::array finishes{optics::Finish{}, {.wetness = 1}, {.wetness = .4, .slope_variance = .1}};
+constexpr std::array<optics::Finish, 3> finishes{
+    optics::Finish{}, {.wetness = 1}, {.wetness = .4, .slope_variance = .1}};
 
 } // namespace
 

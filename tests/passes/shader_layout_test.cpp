@@ -33,7 +33,7 @@ TEST(ShaderLayout, Part)
     gpu_test::expect_layout("forward.frag", "Part", sizeof(Part),
                             {CICATRIX_MEMBER(Part, albedo_factor), CICATRIX_MEMBER(Part, normal_scale),
                              CICATRIX_MEMBER(Part, specular), CICATRIX_MEMBER(Part, slope),
-                             CICATRIX_MEMBER(Part, translucency)});
+                             CICATRIX_MEMBER(Part, translucency), CICATRIX_MEMBER(Part, scattering)});
 }
 
 TEST(ShaderLayout, ReflectanceLut)
@@ -71,7 +71,8 @@ TEST(ShaderLayout, Shading)
              CICATRIX_MEMBER(ShadingParams, beta), CICATRIX_MEMBER(ShadingParams, gamma),
              CICATRIX_MEMBER(ShadingParams, translucency_bound_4), CICATRIX_MEMBER(ShadingParams, slope),
              CICATRIX_MEMBER(ShadingParams, ambient), CICATRIX_MEMBER(ShadingParams, fresnel_scale),
-             CICATRIX_MEMBER(ShadingParams, grazing), CICATRIX_MEMBER(ShadingParams, mirrored)});
+             CICATRIX_MEMBER(ShadingParams, grazing), CICATRIX_MEMBER(ShadingParams, mirrored),
+             CICATRIX_MEMBER(ShadingParams, scattering)});
         gpu_test::expect_layout(stage, "Light", sizeof(Light),
                                 {CICATRIX_MEMBER(Light, position), CICATRIX_MEMBER(Light, kind),
                                  CICATRIX_MEMBER(Light, direction),

@@ -282,6 +282,7 @@ TEST_F(ShadingOnGpu, WholeEquationEqualsTheReference)
         shading.ward_model = static_cast<optics::WardModel>(n % 3);
         shading.specular_model = static_cast<optics::SpecularModel>(n % 2);
         shading.translucency_model = static_cast<optics::TranslucencyModel>(n / 3 % 2);
+        shading.transport = static_cast<optics::Transport>(n / 18 % 3);
         optics::Light light;
         light.kind = static_cast<optics::LightKind>(n / 6 % 3);
         light.position = {2 * unit(random) - 1, 2 * unit(random) - 1, unit(random)};
@@ -301,16 +302,26 @@ TEST_F(ShadingOnGpu, WholeEquationEqualsTheReference)
         c.a = glm::vec3(0.1 * unit(random), 0.1 * unit(random), n % 50 == 0 ? 0.0 : -0.1 * unit(random));
         c.b = direction(unit(random), 6 * unit(random));
         c.c = glm::vec3(unit(random), unit(random), unit(random));
-        c.params = passes::shading_params(shading);
-        c.light = passes::lighting(std::span(&light, 1)).light[0];
-        cases.push_back(c);
-
         optics::ShadedPoint point;
+        point.scattering_length_mm = 2 * base::Color(unit(random), unit(random), n % 7 == 0 ? 0 : unit(random));
+        if (n % 5 != 0)
+            point.curvature = {200 * unit(random) - 100, 300 * unit(random) * unit(random)};
+        const optics::ShadowMap map{.filter_m = 2e-3 * unit(random) + 1e-4, .through_m = 5e-3 * unit(random)};
+        c.params = passes::shading_params(shading, point.scattering_length_mm);
+        c.light = passes::lighting(std::span(&light, 1)).light[0];
+        c.transport = static_cast<shared::uint>(shading.transport);
+        c.curvature = glm::vec2(glm::dvec2(point.curvature[0], point.curvature[1]));
+        c.filter_m = float(map.filter_m);
+        c.through_m = float(map.through_m);
+        c.smooth_normal = direction(n % 2 == 0 ? 1 - 0.3 * unit(random) : 2 * unit(random) - 1, 6 * unit(random));
+        cases.push_back(c);
+        point.smooth = to_double(c.smooth_normal);
+
         point.position = to_double(c.a);
         point.to_viewer = to_double(c.b);
         point.albedo = to_double(c.c);
         point.finish = {c.wetness, c.slope_variance};
-        references.push_back(optics::shade(shading, light, point, c.number));
+        references.push_back(optics::shade(shading, light, point, c.number, map));
     }
     const std::vector<glm::vec3> values = evaluate(cases);
     for (std::size_t n = 0; n < cases.size(); ++n) {
@@ -413,6 +424,9 @@ TEST_F(ShadingOnGpu, EveryLightPositionGivesAValidColor)
                         c.specular = place.x > 0 ? shared::SPECULAR_WARD : shared::SPECULAR_SKIN;
                         c.wetness = z > 0 ? .5f : 0;
                         c.number = 1;
+                        c.transport = model;
+                        c.filter_m = 1;
+                        c.smooth_normal = direction(z, 1);
                         c.b = direction(z, 3);
                         c.c = glm::vec3(1);
                         c.params = passes::shading_params(optics::Shading{});
@@ -439,7 +453,8 @@ TEST_F(ShadingOnGpu, SharedStructsHaveTheSameLayoutInBothLanguages)
          CICATRIX_MEMBER(ShadingParams, beta), CICATRIX_MEMBER(ShadingParams, gamma),
          CICATRIX_MEMBER(ShadingParams, translucency_bound_4), CICATRIX_MEMBER(ShadingParams, slope),
          CICATRIX_MEMBER(ShadingParams, ambient), CICATRIX_MEMBER(ShadingParams, fresnel_scale),
-         CICATRIX_MEMBER(ShadingParams, grazing), CICATRIX_MEMBER(ShadingParams, mirrored)});
+         CICATRIX_MEMBER(ShadingParams, grazing), CICATRIX_MEMBER(ShadingParams, mirrored),
+         CICATRIX_MEMBER(ShadingParams, scattering)});
     gpu_test::expect_layout("shading_test.comp", "Light", sizeof(Light),
                             {CICATRIX_MEMBER(Light, position), CICATRIX_MEMBER(Light, kind),
                              CICATRIX_MEMBER(Light, direction), CICATRIX_MEMBER(Light, reference_distance),

@@ -13,6 +13,7 @@ namespace {
 struct Receiver
 {
     glm::vec3 position, normal, to_light;
+    float curvature = 0; // 1/m, of the body that light enters
 };
 
 struct Scene
@@ -60,7 +61,7 @@ optics::Light light_at(const glm::vec3& position)
 struct Frame
 {
     gpu::FrameResult result;
-    std::vector<float> visibility;
+    std::vector<float> visibility, through_m;
 };
 
 Frame render(gpu::Executor& executor, const Scene& scene, const gpu::MeshBuffer& mesh,
@@ -79,30 +80,36 @@ Frame render(gpu::Executor& executor, const Scene& scene, const gpu::MeshBuffer&
     alone.lights[0] = *shadow;
     const graph::ImageId depth = passes::add_shadows(graph, alone, mesh, std::span(&whole, 1));
     if (receivers.empty())
-        return {executor.run(graph), {}};
+        return {executor.run(graph), {}, {}};
 
     const auto count = static_cast<std::uint32_t>(receivers.size());
-    const graph::ImageId visibility = graph.image("visibility", {count, 1, VK_FORMAT_R32_SFLOAT});
+    const graph::ImageId results = graph.image("results", {count, 2, VK_FORMAT_R32_SFLOAT});
     graph::ComputePass& pass = graph.compute("receive", "shadow_test.comp");
     pass.buffer<Receiver>("ReceiverBlock", receivers);
     pass.uniform("ShadowBlock", *shadow);
     pass.sample("shadow_depth", depth, graph::Sampler::NearestClamp);
-    pass.store("visibility", visibility);
-    pass.dispatch(count, 1);
-    const graph::ReadbackId back = graph.readback("visibility", visibility);
+    pass.store("results", results);
+    pass.dispatch(count, 2);
+    const graph::ReadbackId back = graph.readback("results", results);
     gpu::FrameResult result = executor.run(graph);
     const cv::Mat1f values = result.mat(back);
-    const std::vector<float> lit(values.begin(), values.end());
-    return {std::move(result), lit};
+    const std::vector<float> lit(values.begin(), values.begin() + values.cols),
+        through(values.begin() + values.cols, values.end());
+    return {std::move(result), lit, through};
+}
+
+Frame rendered(const Scene& scene, const optics::Light& light, const std::vector<Receiver>& receivers)
+{
+    const gpu::MeshBuffer mesh =
+        passes::upload_mesh(gpu_test::device(), scene.vertices, scene.indices, "scene");
+    gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
+    return render(executor, scene, mesh, light, receivers);
 }
 
 std::vector<float> visibilities(const Scene& scene, const optics::Light& light,
                                 const std::vector<Receiver>& receivers)
 {
-    const gpu::MeshBuffer mesh =
-        passes::upload_mesh(gpu_test::device(), scene.vertices, scene.indices, "scene");
-    gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
-    return render(executor, scene, mesh, light, receivers).visibility;
+    return rendered(scene, light, receivers).visibility;
 }
 
 Scene floor_under_a_plate()
@@ -190,6 +197,42 @@ TEST_F(ShadowOnGpu, FarSideOfABallIsDark)
             receivers.push_back({v.position, v.normal, {}});
     ASSERT_GT(receivers.size(), 1000u);
     for (float lit : visibilities(ball, light_at(light), receivers))
+        EXPECT_EQ(lit, 0);
+}
+
+TEST_F(ShadowOnGpu, AnEarIsAsThickAsGeometrySays)
+{
+    Scene scene; // two sheets 4 mm apart, lit from the front
+    scene.quad({0, 0, 0}, {0.1f, 0, 0}, {0, 0.1f, 0});
+    scene.quad({0, 0, -0.004f}, {-0.1f, 0, 0}, {0, 0.1f, 0});
+    const glm::vec3 light(0.1f, 0.2f, 0.5f);
+    std::vector<Receiver> receivers;
+    for (float x = -0.08f; x < 0.08f; x += 0.0071f)
+        receivers.push_back({{x, 0.3f * x, -0.004f}, {0, 0, -1}, {}, 50});
+    const std::vector<float> through = rendered(scene, light_at(light), receivers).through_m;
+    for (std::size_t n = 0; n < through.size(); ++n) {
+        const glm::vec3 to_light = glm::normalize(light - receivers[n].position);
+        EXPECT_NEAR(through[n], 0.004f / to_light.z, 1.5e-4f) << receivers[n].position.x;
+    }
+}
+
+// Light that spreads under the skin goes round the terminator: the ball's far side is reached a little way, and not
+// where another body is in the way.
+TEST_F(ShadowOnGpu, ABodyDoesNotShadowItsOwnTerminator)
+{
+    Scene ball;
+    ball.ball(0.02f);
+    const glm::vec3 light(0, 0, 0.5f);
+    std::vector<Receiver> receivers;
+    for (const float behind : {0.02f, 0.05f, 0.1f, 0.2f}) {
+        const glm::vec3 n(std::sqrt(1 - behind * behind), 0, -behind);
+        receivers.push_back({0.02f * n, n, {}, 50});
+    }
+    for (float lit : visibilities(ball, light_at(light), receivers))
+        EXPECT_GT(lit, 0.9f);
+    Scene blocked = ball;
+    blocked.quad({0, 0, 0.08f}, {0.05f, 0, 0}, {0, 0.05f, 0});
+    for (float lit : visibilities(blocked, light_at(light), receivers))
         EXPECT_EQ(lit, 0);
 }
 

@@ -19,7 +19,7 @@ CONSTANT FORMULA_TANGENT = 6;          // a = normal, b and number = tangent
 CONSTANT FORMULA_BITANGENT = 7;
 CONSTANT FORMULA_NORMAL = 8;
 CONSTANT FORMULA_BEND = 9;             // a = normal, b = to viewer
-CONSTANT FORMULA_SHADE = 10;           // a = position, b = to viewer, c = albedo, number = visibility; world frame
+CONSTANT FORMULA_SHADE = 10;           // a = position, b = to viewer, c = albedo, number = visibility; frame of the normal
 CONSTANT FORMULA_VISIBILITY = 11;       // number = open, a = albedo
 CONSTANT FORMULA_AMBIENT_SPECULAR = 12; // number = cosine -> x
 CONSTANT FORMULA_SPECULAR_OCCLUSION = 13; // number = open, a.x = cosine -> x; a.y = cosine of above_horizon() -> y
@@ -30,6 +30,10 @@ struct ShadingCase
     uint model;        // of the formula; of Ward for FORMULA_SHADE
     uint translucency; // model, FORMULA_SHADE only
     uint specular;     // model, FORMULA_SHADE only
+    uint transport;    // FORMULA_SHADE only, as what follows
+    vec2 curvature;
+    float filter_m, through_m;
+    vec3 smooth_normal;
     float number;
     float wetness, slope_variance; // of the last two formulas and FORMULA_SHADE
     vec3 a, b, c;

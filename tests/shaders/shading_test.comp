@@ -15,11 +15,14 @@ layout(binding = 1, rgba32f) uniform writeonly image2D results;
 vec3 shade(ShadingCase c)
 {
     LightSample light = sample_light(c.light, c.a);
-    vec3 diffuse = c.number * surface_diffuse(c.params, light, light.direction) +
-                   subsurface_diffuse(c.translucency, c.params, c.light, c.a);
-    return diffuse * c.c + c.number * light.strength *
-                               specular_times_cosine(c.specular, c.model, true, c.params, Finish(c.wetness, c.slope_variance),
-                                                     light.direction, c.b);
+    DiffuseSkin skin = diffuse_skin(c.transport, c.params.rho_d * c.c, c.params.scattering, c.curvature);
+    vec3 diffuse = leaving(c.transport, skin, light.strength, light.direction, c.b, dot(c.smooth_normal, light.direction),
+                           Shade(c.number, c.filter_m, c.through_m));
+    if (c.transport == TRANSPORT_PUBLISHED)
+        diffuse += c.c * subsurface_diffuse(c.translucency, c.params, c.light, c.a);
+    return diffuse + c.number * light.strength *
+                         specular_times_cosine(c.specular, c.model, true, c.params, Finish(c.wetness, c.slope_variance),
+                                               light.direction, c.b);
 }
 
 vec3 evaluate(ShadingCase c)

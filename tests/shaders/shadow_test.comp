@@ -1,4 +1,4 @@
-// The visibility of the light from each point of a list.
+// The visibility of the light from each point of a list; in a second row metres of skin towards the light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -7,22 +7,23 @@
 struct Receiver
 {
     vec3 position, normal, to_light;
+    float curvature; // 1/m, of the body that light enters; 0: it does not
 };
 
 layout(local_size_x = 64) in;
 layout(binding = 0, scalar) readonly buffer ReceiverBlock { Receiver receivers[]; };
 layout(binding = 1, scalar) uniform ShadowBlock { Shadow shadow; };
 layout(binding = 2) uniform sampler2D shadow_depth;
-layout(binding = 3, r32f) uniform writeonly image2D visibility;
+layout(binding = 3, r32f) uniform writeonly image2D results;
 
 void main()
 {
     ivec2 place = ivec2(gl_GlobalInvocationID.xy);
-    uint index = place.y * imageSize(visibility).x + place.x;
-    if (place.x >= imageSize(visibility).x || index >= receivers.length())
+    uint index = place.x;
+    if (place.x >= imageSize(results).x || index >= receivers.length())
         return;
     Receiver r = receivers[index];
-    vec4 in_light = shadow_place(shadow, r.position, r.normal, r.to_light);
-    vec2 slope = shadow_slope(shadow, r.position, r.normal, r.to_light);
-    imageStore(visibility, place, vec4(shadow_visibility(shadow_depth, in_light, slope)));
+    ShadowLookup lookup = shadow_lookup(shadow, r.position, r.normal, r.to_light, r.curvature > 0.0, r.curvature);
+    Shade shade = shadow_sample(shadow_depth, shadow, lookup);
+    imageStore(results, place, vec4(place.y == 0 ? shade.visibility : shade.through_m));
 }

@@ -6,6 +6,7 @@
 
 #include "base/input_error.hpp"
 #include "wound/optics/specular.hpp"
+#include "wound/optics/transport.hpp"
 
 namespace optics {
 namespace {
@@ -52,7 +53,7 @@ Shading published_shading()
 Shading skin_shading()
 {
     Shading shading;
-    shading.transport = Transport::Lambert;
+    shading.transport = Transport::Preintegrated;
     shading.specular_model = SpecularModel::Skin;
     shading.rho_d = 0.862;
     shading.rho_ts = 0.25;
@@ -153,25 +154,19 @@ LightSample sample_light(const Light& light, const cv::Vec3d& position)
     return {offset / metres, metres, falloff * light.strength};
 }
 
-base::Color interreflection(double open, const base::Color& albedo)
-{
-    base::Color factor;
-    for (int c = 0; c < 3; ++c)
-        factor[c] = std::min(10., 1 / (1 - (1 - open) * albedo[c]));
-    return factor;
-}
-
-base::Color shade(const Shading& shading, const Light& light, const ShadedPoint& point, double visibility)
+base::Color shade(const Shading& shading, const Light& light, const ShadedPoint& point, double visibility,
+                  const ShadowMap& map)
 {
     const LightSample sample = sample_light(light, point.position);
     const cv::Vec3d incident = point.frame * sample.direction, outgoing = point.frame * point.to_viewer;
-    const double cosine = std::max(0.0, incident[2]);
-    const double d = light.paper_units_per_m * std::max(0.0, sample.distance_m);
-
-    const base::Color direct = visibility * cosine * sample.strength;
-    const base::Color scattered =
-        shading.rho_d * direct + shading.rho_ts * translucency(shading, d) * light.strength;
-    return point.albedo.mul(scattered) + specular(shading, point.finish, incident, outgoing) * direct;
+    const base::Color direct = visibility * std::max(0.0, incident[2]) * sample.strength;
+    base::Color left =
+        leaving(shading, point, sample.direction, incident, visibility, map).mul(sample.strength);
+    if (shading.transport == Transport::Published) {
+        const double d = light.paper_units_per_m * std::max(0.0, sample.distance_m);
+        left += shading.rho_ts * translucency(shading, d) * light.strength.mul(point.albedo);
+    }
+    return left + specular(shading, point.finish, incident, outgoing) * direct;
 }
 
 } // namespace optics

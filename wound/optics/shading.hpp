@@ -7,7 +7,9 @@
 // Local vectors are (tangent, bitangent, normal) components, unit length, pointing away from the surface.
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,6 +62,11 @@ struct Shading
     bool lambertian() const { return lambert && rho_d > 0; }
     bool translucent() const { return translucency && transport == Transport::Published && rho_ts > 0; }
     bool glossy() const { return ward && rho_s > 0; }
+    /// The transport that is drawn: without its term, `published` is Lambert's.
+    Transport drawn_transport() const
+    {
+        return transport == Transport::Published && !translucent() ? Transport::Lambert : transport;
+    }
     /// W, the largest translucent weight at which a point that faces the light reflects no more light than it
     /// receives: rho_d + rho_ts W = 1.
     double translucency_bound() const;
@@ -152,9 +159,20 @@ struct ShadedPoint
     cv::Vec3d to_viewer{0, 0, 1};           // unit, in the space of `position`
     base::Color albedo{1, 1, 1};            // C of eq. (4)
     Finish finish;
+    // What transport `preintegrated` asks for:
+    std::optional<cv::Vec3d> smooth{};             // unit normal without a normal map; none: the frame's
+    cv::Vec2d curvature{0, 0};                     // 1/m, of the smooth surface: mean, root mean square
+    base::Color scattering_length_mm{0, 0, 0};     // scattering_length_mm() (transport.hpp)
+};
+/// What transport `preintegrated` has of a light's shadow map.
+struct ShadowMap
+{
+    double filter_m = 1; // half width of the filter that gave the visibility
+    double through_m = std::numeric_limits<double>::infinity(); // from the point to the first lit surface
 };
 /// Eq. (8) for one light. `visibility` (0 in full shadow .. 1) multiplies the direct light; as in the paper
 /// it does not affect the translucent term.
-base::Color shade(const Shading& shading, const Light& light, const ShadedPoint& point, double visibility);
+base::Color shade(const Shading& shading, const Light& light, const ShadedPoint& point, double visibility,
+                  const ShadowMap& map = {});
 
 } // namespace optics

@@ -1,0 +1,66 @@
+// How light that enters the skin leaves it again: the models of TRANSPORTS (shared/shading.h) at one point, for one
+// light. The same in double precision, with sources and reasons, is wound/optics/transport.hpp.
+#ifndef LIB_TRANSPORT_GLSL
+#define LIB_TRANSPORT_GLSL
+#include "lib/shadow.glsl"
+#include "shared/shading.h"
+
+// A point of the skin. diffuse_skin() makes it, once for all lights.
+struct DiffuseSkin
+{
+    vec3 albedo;      // rho_d C
+    vec3 width;       // m, how far light spreads; preintegrated, as all that follows
+    vec3 slope, bend; // of received_bent()
+    vec3 gain;        // what a body that bends returns more than a half space does
+    vec3 detail;      // share of the normal map's detail that diffusion leaves
+};
+
+// scattering: m, of the part of the head: 0 where no light enters. curvature: 1/m, mean (convex: > 0) and root mean square.
+DiffuseSkin diffuse_skin(uint transport, vec3 albedo, vec3 scattering, vec2 curvature)
+{
+    DiffuseSkin skin = DiffuseSkin(albedo, vec3(0.0), vec3(1.0), vec3(0.0), vec3(1.0), vec3(1.0));
+    if (transport == TRANSPORT_PREINTEGRATED)
+    {
+        skin.width = max(albedo * scattering, vec3(1e-6));
+        vec3 turn = min(curvature.y * skin.width, 0.25); // radians
+        vec3 square = turn * turn;
+        skin.bend = square / (1.0 + 7.0 * square);
+        vec3 peak = 1.0 - 7.0 * skin.bend;
+        skin.slope = peak - skin.bend / peak;
+        vec3 more = max(5.6 - 6.6 * albedo, 0.0) * clamp(curvature.x * skin.width, -0.25, 0.25);
+        skin.gain = (1.0 + max(more, 0.0)) / (1.0 - min(more, 0.0));
+        skin.detail = PORE_WIDTH / (PORE_WIDTH + 1.6 * skin.width);
+    }
+    return skin;
+}
+
+// The light that a ball returns where its normal and the light enclose this angle, over skin.gain and what a plane that
+// faces the light returns: a hyperbola.
+vec3 received_bent(DiffuseSkin skin, vec3 cosine)
+{
+    vec3 along = skin.slope * cosine;
+    return max(0.5 * (along + sqrt(along * along + 4.0 * skin.bend)), 0.0);
+}
+
+// What the edge of a cast shadow becomes when light spreads under it.
+vec3 softened(vec3 width, Shade shade)
+{
+    float side = 2.0 * shade.visibility - 1.0; // -1 and 1: where the filter ends in the dark and in the light
+    vec3 blur = 0.8 * width / shade.filter_m + 1e-4;
+    return 0.5 + 0.5 * side * (1.0 + blur) / (abs(side) + blur);
+}
+
+// The light that leaves the point diffusely. strength: of the light, unshadowed; local_light and local_viewer in the frame
+// of the shaded normal; facing: cosine between the light and the smooth surface.
+vec3 leaving(uint transport, DiffuseSkin skin, vec3 strength, vec3 local_light, vec3 local_viewer, float facing, Shade shade)
+{
+    if (transport != TRANSPORT_PREINTEGRATED)
+        return skin.albedo * (max(local_light.z, 0.0) * shade.visibility) * strength;
+    vec3 cosine = mix(vec3(facing), vec3(local_light.z), skin.detail);
+    vec3 reflected = skin.albedo * skin.gain * received_bent(skin, cosine) * softened(skin.width, shade);
+    // Through a thin part, from its far side, which is taken to face the light as this side turns away from it.
+    vec3 passed = max(-facing, 0.0) * exp(-shade.through_m / (3.0 * skin.width));
+    return max(reflected, passed) * strength;
+}
+
+#endif

@@ -1,0 +1,124 @@
+#include "wound/optics/transport.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <vector>
+
+#include "wound/optics/diffusion_profile.hpp"
+
+namespace optics {
+namespace {
+
+constexpr double least_width_m = 1e-6; // where no light enters
+
+bool same_layers(const SkinLayers& a, const SkinLayers& b)
+{
+    return a.n_above == b.n_above && a.n_below == b.n_below &&
+           std::ranges::equal(a.layers, b.layers, [](const Layer& x, const Layer& y) {
+               return x.sigma_a == y.sigma_a && x.sigma_s_reduced == y.sigma_s_reduced && x.g == y.g &&
+                      x.n == y.n && x.thickness_mm == y.thickness_mm;
+           });
+}
+
+base::Color walked_length_mm(const SkinLayers& tissue)
+{
+    const std::uint64_t photons = tissue.channels() > 3 ? 400 : 4000; // of each wavelength
+    const auto profiles = diffusion_profile(tissue, {.photons = photons});
+    base::Color length(0, 0, 0);
+    for (int c = 0; c < 3; ++c)
+        if (const DiffusionProfile& profile = profiles[std::size_t(c)]; profile.albedo > 1e-3)
+            length[c] = std::max(profile.radius_mm, 0.0) / (2.5 * profile.albedo);
+    return length;
+}
+
+double square(double x)
+{
+    return x * x;
+}
+
+base::Color preintegrated(const Shading& shading, const ShadedPoint& point, const cv::Vec3d& to_light,
+                          const cv::Vec3d& incident, double visibility, const ShadowMap& map)
+{
+    const double facing = point.smooth ? point.smooth->dot(to_light) : incident[2];
+    base::Color sum;
+    for (int c = 0; c < 3; ++c) {
+        const double albedo = shading.rho_d * point.albedo[c];
+        const double width =
+            std::max(diffusion_width(albedo, 1e-3 * point.scattering_length_mm[c]), least_width_m);
+        const double cosine = std::lerp(facing, incident[2], detail_left(width));
+        const double reflected = albedo * bend_gain(albedo, point.curvature[0] * width) *
+                                 received_bent(cosine, point.curvature[1] * width) *
+                                 softened(visibility, width, map.filter_m);
+        sum[c] = std::max(reflected, std::max(0.0, -facing) * passed(map.through_m, width));
+    }
+    return sum;
+}
+
+} // namespace
+
+base::Color scattering_length_mm(const SkinLayers& tissue)
+{
+    static std::mutex mutex;
+    static std::vector<std::pair<SkinLayers, base::Color>> known;
+    {
+        const std::scoped_lock lock(mutex);
+        for (const auto& [layers, length] : known)
+            if (same_layers(layers, tissue))
+                return length;
+    }
+    const base::Color length = walked_length_mm(tissue);
+    const std::scoped_lock lock(mutex);
+    if (known.size() >= 16)
+        known.erase(known.begin());
+    known.emplace_back(tissue, length);
+    return length;
+}
+
+double diffusion_width(double albedo, double scattering_length)
+{
+    return albedo * scattering_length;
+}
+
+double received_bent(double cosine, double turn)
+{
+    const double within = square(std::min(turn, 0.25)), bend = within / (1 + 7 * within);
+    const double peak = 1 - 7 * bend; // where the ball faces the light; sqrt(bend) at the terminator
+    const double slope = peak - bend / peak;
+    return (slope * cosine + std::sqrt(square(slope * cosine) + 4 * bend)) / 2;
+}
+
+double bend_gain(double albedo, double turn)
+{
+    const double more = std::max(5.6 - 6.6 * albedo, 0.0) * std::clamp(turn, -0.25, 0.25);
+    return more >= 0 ? 1 + more : 1 / (1 - more);
+}
+
+// The edge response of Burley's profile is near .5 / (1 + u / .8) at u widths from the edge (.31 at .5, .22 at 1;
+// .14 instead of .13 at 2). This is it over its values at the filter's ends.
+double softened(double visibility, double width, double filter)
+{
+    const double side = 2 * visibility - 1, blur = 0.8 * width / filter + 1e-4;
+    return 0.5 + 0.5 * side * (1 + blur) / (std::abs(side) + blur);
+}
+
+double passed(double thickness, double width)
+{
+    return std::exp(-thickness / (3 * width));
+}
+
+// Share of the light that leaves within PORE_WIDTH, about.
+double detail_left(double width_m)
+{
+    return shared::PORE_WIDTH / (shared::PORE_WIDTH + 1.6 * width_m);
+}
+
+base::Color leaving(const Shading& shading, const ShadedPoint& point, const cv::Vec3d& to_light,
+                    const cv::Vec3d& incident, double visibility, const ShadowMap& map)
+{
+    if (shading.transport == Transport::Preintegrated)
+        return preintegrated(shading, point, to_light, incident, visibility, map);
+    return shading.rho_d * visibility * std::max(0.0, incident[2]) * point.albedo;
+}
+
+} // namespace optics
