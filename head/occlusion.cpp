@@ -18,7 +18,7 @@ namespace {
 
 constexpr float start_offset = 3e-4f; // metres along the normal, to avoid hitting the vertex's own triangles
 
-constexpr std::uint64_t occlusion_version = 1; // goes up when the same mesh gets another occlusion
+constexpr std::uint64_t occlusion_version = 1;   // goes up when the same mesh gets another occlusion
 constexpr int most_rays = 128, fewest_rays = 16; // of a point
 constexpr std::size_t rays_in_all = 16'000'000;  // beyond 125,000 points each gets fewer
 constexpr float smoothed_over = 2e-3f; // metres: occlusion hardly changes along an edge as short as this
@@ -92,7 +92,7 @@ void smooth(std::vector<float>& open, const Model& model, const OcclusionPoints&
         sums = open;
         std::ranges::fill(weights, 1.f);
         for (const auto& [a, b] : edges) { // in the mesh's order: the same sums for any number of threads
-            sums[a] += 0.5f * open[b]; // an inner edge comes twice
+            sums[a] += 0.5f * open[b];     // an inner edge comes twice
             sums[b] += 0.5f * open[a];
             weights[a] += 0.5f;
             weights[b] += 0.5f;

@@ -26,7 +26,7 @@ struct FrameWound
 struct FrameInput
 {
     const Head& head;
-    std::span<const FrameWound> wounds;    // at most shared::MAX_WOUNDS; of the head's anchors, in their order
+    std::span<const FrameWound> wounds; // at most shared::MAX_WOUNDS; of the head's anchors, in their order
     std::span<const optics::Light> lights; // at most shared::MAX_LIGHTS
     head::Camera camera;
     optics::Shading shading;
@@ -46,8 +46,8 @@ struct FrameImages
     LabelImages labels; // drawn only if they are read back
 };
 
-/// What cannot be seen costs nothing: lights without strength, terms without a coefficient, and wounds that the
-/// tile does not show are left out of the picture's passes.
+/// What cannot be seen costs nothing: lights without strength, terms without a coefficient, and wounds that
+/// the tile does not show are left out of the picture's passes.
 FrameImages add_frame(graph::Graph& graph, const FrameInput& input);
 
 } // namespace passes

@@ -43,7 +43,7 @@ void append_split(const head::Model& model, std::span<const head::Anchor> anchor
 gpu::MeshBuffer upload_mesh(const gpu::Device& device, std::span<const head::Vertex> vertices,
                             std::span<const std::uint32_t> indices, const std::string& name)
 {
-    static constexpr std::array<graph::VertexAttribute, 5> attributes{{
+    static constexpr std::array<graph::VertexAttribute, 6> attributes{{
         {"position", 3, offsetof(head::Vertex, position)},
         {"normal", 3, offsetof(head::Vertex, normal)},
         {"tangent", 4, offsetof(head::Vertex, tangent)},

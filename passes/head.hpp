@@ -33,9 +33,9 @@ struct Head
     std::vector<head::Primitive> casters; // shadow casters: the opaque primitives, in caster_mesh
     std::shared_ptr<const gpu::MeshBuffer> caster_mesh;
     std::vector<std::shared_ptr<const gpu::Texture>> textures;
-    const gpu::Texture* white = nullptr; // one texel
-    glm::vec3 min{0.0f}, max{0.0f};      // metres
-    std::vector<Bounds> boxes;              // boxes_around() the model
+    const gpu::Texture* white = nullptr;        // one texel
+    glm::vec3 min{0.0f}, max{0.0f};             // metres
+    std::vector<Bounds> boxes;                  // boxes_around() the model
     std::vector<std::vector<Triangle>> wounded; // by anchor: the skin that its patch reaches
 };
 

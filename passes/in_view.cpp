@@ -10,8 +10,8 @@ constexpr int grid_cells = 24; // along the longest side of the head
 /// Pixels by which a device may move a corner: it computes in float and rounds to 1/256 of a pixel.
 constexpr double snapping = 1.0 / 128;
 
-/// Bits of the sides of the view that a point lies beyond; the view is made larger by `margin`, a share of its
-/// half width and height. Beyond its far side lies nothing: the view holds the head.
+/// Bits of the sides of the view that a point lies beyond; the view is made larger by `margin`, a share of
+/// its half width and height. Beyond its far side lies nothing: the view holds the head.
 unsigned beyond(const glm::dvec4& clip, const glm::dvec2& margin)
 {
     const double x = (1 + margin.x) * clip.w, y = (1 + margin.y) * clip.w;

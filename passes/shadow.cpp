@@ -37,7 +37,7 @@ glm::dvec3 on_plane(const glm::dmat4& view, const glm::dvec3& point, bool parall
 constexpr double footprint = 4.0 / shadow_size; // of the filter, with a margin; share of the map's width
 constexpr int widths_per_octave = 4;
 constexpr double narrowest = 1.0 / 4; // of the whole map: finer texels would show the mesh's facets
-constexpr int steps = 16;             // along the map's width; a step is a whole number of texels
+constexpr int steps = 8;              // along the map's width; a step is a whole number of texels
 
 /// A square of the plane at unit depth.
 struct Window
@@ -110,9 +110,9 @@ std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::
 
     const Window window = window_around(seen, view, parallel, half);
     const glm::dvec2 low = window.low, high = window.low + window.width;
-    glm::dmat4 projection = parallel ? glm::orthoRH_ZO(low.x, high.x, low.y, high.y, near, far)
-                                     : glm::frustumRH_ZO(low.x * near, high.x * near, low.y * near,
-                                                         high.y * near, near, far);
+    glm::dmat4 projection =
+        parallel ? glm::orthoRH_ZO(low.x, high.x, low.y, high.y, near, far)
+                 : glm::frustumRH_ZO(low.x * near, high.x * near, low.y * near, high.y * near, near, far);
     for (int column = 0; column < 4; ++column)
         projection[column][1] = -projection[column][1]; // Vulkan's y points down
     const glm::dmat4 clip_from_world = projection * view;

@@ -1,7 +1,6 @@
 // Shadow maps of the lights: depth of the head seen from each, side by side in one image. The pass runs only
-// when a light, the head, or the part of it that is in view has changed; the graph drops it when nothing samples
-// the depth.
-// shaders/lib/shadow.glsl computes the visibility.
+// when a light, the head, or the part of it that is in view has changed; the graph drops it when nothing
+// samples the depth. shaders/lib/shadow.glsl computes the visibility.
 #pragma once
 #include <glm/glm.hpp>
 #include <optional>
@@ -20,9 +19,9 @@ inline constexpr std::uint32_t shadow_size = 1024; // texels, of a light
 
 /// The light's frustum (parallel for a directional light) that tightly encloses the box, narrowed to what the
 /// camera can see (`seen`, boxes in it; none: all of it). It keeps all casters between light and `seen`. Its
-/// width is one of a few, and its place moves by whole texels: while the camera moves a little it stays the same, and
-/// then shadows do not crawl. None when the light is inside the box or too near for one shadow map to cover
-/// it: such a light casts no shadow.
+/// width is one of a few, and its place moves by whole texels: while the camera moves a little it stays the
+/// same, and then shadows do not crawl. None when the light is inside the box or too near for one shadow map
+/// to cover it: such a light casts no shadow.
 std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::vec3& box_min,
                                          const glm::vec3& box_max, std::span<const Bounds> seen = {});
 

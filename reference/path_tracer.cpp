@@ -7,6 +7,7 @@
 #include "head/vectors.hpp"
 #include "reference/directions.hpp"
 #include "wound/optics/specular.hpp"
+#include "wound/optics/surroundings.hpp"
 
 namespace reference {
 namespace {

@@ -50,9 +50,6 @@ layout(binding = 11) uniform sampler2D reflectance_lut[MAX_WOUNDS];
 layout(binding = 12) uniform sampler2D shadow_map;
 layout(scalar, binding = 13) uniform Shadows_ { Shadow shadows[MAX_LIGHTS]; };
 
-const bool BOUNCE = AMBIENT && LAMBERT;
-const float BOUNCED_SHARE = 0.4;
-
 #define ADD_WOUND(i)                                                                                                            \
     if (WOUNDS > i)                                                                                                            \
         add_wound(BLEND_MODEL, wounds[i], wound_color[i], wound_state[i], wound_relief[i], reflectance_lut[i], v_position,     \
@@ -79,15 +76,9 @@ void main()
     ADD_WOUND(0) ADD_WOUND(1) ADD_WOUND(2) ADD_WOUND(3) ADD_WOUND(4) ADD_WOUND(5) ADD_WOUND(6)
 
     frame = frame_of(bend_to_viewer(skin.normal, to_viewer), v_tangent);
-    ShadingParams params = shading;
-    // Taut new epithelium has a slightly narrower lobe. Eq. (7) alone knows no film: there a wet bed has a narrower, dimmer
-    // lobe. Eq. (7) as published knows none of it, and no occlusion.
+    // Eq. (7) as published: neither wetness nor occlusion touches it.
     const bool only_ward = SPECULAR_MODEL == SPECULAR_WARD && WARD_MODEL == WARD_PUBLISHED;
-    const float wet = SPECULAR_MODEL == SPECULAR_WARD ? 0.4 * skin.wetness : 0;
-    const float gloss = part.specular * (only_ward ? 1 : 1 - wet + 0.15 * skin.tautness);
-    params.slope *= part.slope * (only_ward ? 1 : (1 - wet) * (1 - 0.25 * skin.tautness));
-    params.rho_s *= gloss;
-    params.fresnel_scale *= gloss;
+    const ShadingParams params = with_gloss(SPECULAR_MODEL, only_ward, shading, part, skin);
     const Finish finish = Finish(skin.wetness, skin.slope_variance);
     const vec3 local_viewer = to_viewer * frame;
     const vec3 visible = AMBIENT ? visibility(open * skin.occlusion, params.rho_d * skin.albedo) : vec3(0);
@@ -99,8 +90,8 @@ void main()
     {
         LightSample light = sample_light(lighting.light[i], v_position);
         const vec3 local_light = light.direction * frame;
-        if (BOUNCE)
-            bounced += light.strength * (0.5 + 0.5 * local_light.z);
+        if (AMBIENT && LAMBERT)
+            bounced += light.strength * bounced_share(open, local_light.z);
         Shade shade = NO_SHADE;
         if ((SHADOWS >> i & 1) != 0)
         {
@@ -118,8 +109,7 @@ void main()
             mirrored += light.strength * specular_times_cosine(SPECULAR_MODEL, WARD_MODEL, WOUNDS > 0, params, finish, local_light,
                                                                local_viewer);
     }
-    if (BOUNCE)
-        diffuse += body.albedo * body.albedo * bounced * (1 - open) * BOUNCED_SHARE;
+    diffuse += body.albedo * body.albedo * bounced;
     // Translucency is multiplied by ambient occlusion, except in the published model.
     if (TRANSPORT == TRANSPORT_PUBLISHED)
         diffuse += v_subsurface * skin.albedo *
@@ -127,9 +117,7 @@ void main()
     // The head's own shadows dim the lights' highlights, but a wound's hollow is in no shadow map.
     mirrored *= only_ward ? 1 : skin.occlusion;
     if (AMBIENT && WARD && SPECULAR_MODEL == SPECULAR_SKIN)
-        mirrored += params.mirrored * (gloss * ambient_specular(params, finish, local_viewer.z) * skin.occlusion *
-                    specular_occlusion(open, local_viewer.z) *
-                    above_horizon(2 * local_viewer.z * dot(frame[2], geometric) - dot(to_viewer, geometric)));
+        mirrored += params.mirrored * skin.occlusion * ambient_highlight(params, finish, open, frame[2], geometric, to_viewer);
     const vec3 radiance = diffuse + mirrored;
     out_color = vec4(finite_radiance(radiance), albedo.a);
 }

@@ -48,4 +48,8 @@ vec3 visibility(float open, vec3 albedo)
     return max(vec3(open), ((open * a + b) * open + c) * open);
 }
 
+// Light of a lamp that reaches a point by way of the skin that hides the rest of its surroundings: times the lamp's strength
+// without its shadow, and times the skin's diffuse albedo. `cosine` between normal and lamp.
+float bounced_share(float open, float cosine) { return BOUNCED_SHARE * (1.0 - open) * (0.5 + 0.5 * cosine); }
+
 #endif

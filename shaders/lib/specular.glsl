@@ -64,4 +64,12 @@ float above_horizon(float cosine)
     return x * x;
 }
 
+// What is mirrored of even light with the radiance 1, without fresnel_scale. All vectors are unit vectors.
+float ambient_highlight(ShadingParams p, Finish finish, float open, vec3 normal, vec3 geometric, vec3 to_viewer)
+{
+    float cosine = dot(normal, to_viewer);
+    return ambient_specular(p, finish, cosine) * specular_occlusion(open, cosine) *
+           above_horizon(2.0 * cosine * dot(normal, geometric) - dot(to_viewer, geometric));
+}
+
 #endif

@@ -4,6 +4,7 @@
 #define LIB_WOUND_PROJECTION_GLSL
 #include "lib/blend.glsl"
 #include "shared/frame.h"
+#include "shared/part.h"
 
 struct SkinPoint
 {
@@ -14,6 +15,21 @@ struct SkinPoint
     float tautness;  // 0 porous skin .. 1 new epithelium
     float slope_variance; // of Finish
 };
+
+// Parameters of the highlight here: of the part, of taut new epithelium, whose lobe is slightly narrower, and with
+// SPECULAR_WARD, which knows no film, of a wet bed, whose lobe is narrower and dimmer. wound::with_gloss().
+// only_ward: eq. (7) as published knows neither.
+ShadingParams with_gloss(uint specular_model, bool only_ward, ShadingParams p, Part part, SkinPoint skin)
+{
+    const float wet = specular_model == SPECULAR_WARD && !only_ward ? 0.4 * skin.wetness : 0;
+    const float taut = only_ward ? 0 : skin.tautness;
+    const float gloss = part.specular * (1 - wet + 0.15 * taut);
+    p.slope *= part.slope * (1 - wet) * (1 - 0.25 * taut);
+    p.rho_s *= gloss;
+    p.fresnel_scale *= gloss;
+    p.mirrored *= gloss;
+    return p;
+}
 
 // When the whole face is visible, a patch is strongly minified, and graph images have no mip levels: two
 // bilinear taps across the pixel's footprint reduce flicker in videos.

@@ -43,6 +43,7 @@ TRANSPORTS(MODEL_CONSTANT)
 NUMBER SKIN_F0 = 0.028;     // Fresnel reflectance of skin and serum at normal incidence, n = 1.4
 NUMBER NARROW_SHARE = 0.4;  // of the narrower lobe, whose slope is half of the wide lobe's
 NUMBER WET_SLOPE = 0.1;     // of the film's lobe
+NUMBER BOUNCED_SHARE = 0.4; // of bounced_share()
 NUMBER WET_GRAZING = 0.58;  // c of ambient_specular() for that slope
 
 CONSTANT LIGHT_DIRECTIONAL = 0;

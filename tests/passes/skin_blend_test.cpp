@@ -11,6 +11,7 @@
 #include "passes/frame.hpp"
 #include "tests/support/gpu.hpp"
 #include "wound/drawn_region.hpp"
+#include "wound/optics/surroundings.hpp"
 #include "wound/prepare.hpp"
 #include "wound/reflectance_table.hpp"
 #include "wound/skin_blend.hpp"
@@ -186,7 +187,7 @@ optics::Shading lit(std::optional<optics::WardModel> highlight)
     shading.ward = highlight.has_value();
     shading.ward_model = highlight.value_or(shading.ward_model);
     shading.rho_ts = 0;
-    shading.rho_s = highlight ? 1 : 0;
+    shading.rho_s = highlight ? optics::skin_rho_s : 0;
     return shading;
 }
 
@@ -229,7 +230,7 @@ TEST_F(SkinBlendOnGpu, ColorAndOcclusionEqualThoseOfTheCpu)
 }
 
 // Diffuse light depends on albedo and normal; the highlight on normal, occlusion, wetness and tautness, that
-// of the published model on the normal alone. The highlight is as bright as 3 and follows the slope, which is
+// of the published model on the normal alone. The highlight is as bright as .7 and follows the slope, which is
 // a difference of depths in half floats and off by .01 in places (wound_texture_test.cpp).
 TEST_F(SkinBlendOnGpu, DiffuseLightAndHighlightEqualThoseOfTheCpu)
 {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes.hpp"
+#include "wound/optics/specular.hpp"
 #include "tests/support/small_head.hpp"
 
 namespace {
@@ -185,9 +186,11 @@ TEST(PathTracer, HighlightIsThatOfTheOptics)
     shading.rho_ts = 0;
     shading.alpha_x = .2;
     const glm::dvec3 eye(-.2, 0, .4);
-    for (const optics::WardModel ward :
-         {optics::WardModel::Published, optics::WardModel::Duer, optics::WardModel::Bounded})
-    {
+    for (const auto& [model, ward] : {std::pair(optics::SpecularModel::Ward, optics::WardModel::Published),
+                                      {optics::SpecularModel::Ward, optics::WardModel::Bounded},
+                                      {optics::SpecularModel::Skin, optics::WardModel::Duer},
+                                      {optics::SpecularModel::Skin, optics::WardModel::Bounded}}) {
+        shading.specular_model = model;
         shading.ward_model = ward;
         Levels levels = direct;
         levels.specular = true;
@@ -199,6 +202,28 @@ TEST(PathTracer, HighlightIsThatOfTheOptics)
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(seen.light[c], expected[c], 1e-6);
     }
+}
+
+// Even light is mirrored as much as the lobes reflect; a black ball above takes its share of it.
+TEST(PathTracer, SurroundingsAreMirrored)
+{
+    head::Model model = small::wall(glm::vec3(.5f));
+    const glm::dvec3 eye(.3, 0, .1);
+    const auto seen = [&](const head::Model& of) {
+        scene::LoadedScene scene = scenes::scene_of(of, 0); // nothing but the highlight
+        scene.scene.shading.specular_model = optics::SpecularModel::Skin;
+        scene.scene.shading.ambient = {1, .5, 0};
+        return Tracer(scene, {.subsurface = false}).along(eye, -eye, 40'000).light;
+    };
+    const glm::dvec3 viewer = glm::normalize(eye);
+    const double albedo = optics::specular_albedo(optics::skin_shading(), {}, {viewer.x, viewer.y, viewer.z});
+    const base::Color open = seen(model);
+    EXPECT_NEAR(open[0], albedo, .02 * albedo);
+    EXPECT_NEAR(open[1], albedo / 2, .02 * albedo);
+    EXPECT_EQ(open[2], 0);
+    model.materials.push_back(scenes::plain("other", {0, 0, 0, 1}));
+    scenes::add_ball(model, {-.06f, 0, .03f}, .025f, 1);
+    EXPECT_LT(seen(model)[0], .7 * albedo);
 }
 
 } // namespace

@@ -52,7 +52,7 @@ inline head::Material plain(const char* name, const glm::vec4& linear_color)
     return material;
 }
 
-/// The model as a scene without wounds, lights and ambient light, of the given diffuse share.
+/// The model as a scene without wounds, lights and ambient light, of the given diffuse share. It mirrors lights alone.
 inline scene::LoadedScene scene_of(head::Model model, double rho_d = 1)
 {
     head::update_bounds(model);
@@ -66,6 +66,7 @@ inline scene::LoadedScene scene_of(head::Model model, double rho_d = 1)
     loaded.scene.wounds.clear();
     loaded.scene.shading.ambient = {0, 0, 0};
     loaded.scene.shading.rho_d = rho_d;
+    loaded.scene.shading.specular_model = optics::SpecularModel::Ward;
     loaded.tissue = optics::table1();
     loaded.complete = true;
     return loaded;

@@ -22,7 +22,7 @@ CONSTANT FORMULA_BEND = 9;             // a = normal, b = to viewer
 CONSTANT FORMULA_SHADE = 10;           // a = position, b = to viewer, c = albedo, number = visibility; frame of the normal
 CONSTANT FORMULA_VISIBILITY = 11;       // number = open, a = albedo
 CONSTANT FORMULA_AMBIENT_SPECULAR = 12; // number = cosine -> x
-CONSTANT FORMULA_SPECULAR_OCCLUSION = 13; // number = open, a.x = cosine -> x; a.y = cosine of above_horizon() -> y
+CONSTANT FORMULA_SPECULAR_OCCLUSION = 13; // number = open, a.x = cosine -> x; a.y = cosine of above_horizon() -> y, of bounced_share() -> z
 
 struct ShadingCase
 {

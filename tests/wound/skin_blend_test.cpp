@@ -97,7 +97,11 @@ TEST(SkinBlend, IsTheWoundsOwnColorOnDayZeroAndTheSkinWhenHealed)
     ASSERT_EQ(texture[3], 1);
     EXPECT_LT(cv::norm(fresh.albedo - base::Color(texture[0], texture[1], texture[2])), 1e-9);
     EXPECT_EQ(fresh.wetness, 1);
-    EXPECT_LT(wound::with_gloss(optics::skin_shading(), fresh).alpha_x, optics::skin_shading().alpha_x);
+    EXPECT_EQ(wound::finish_of(fresh).wetness, 1);
+    EXPECT_EQ(wound::with_gloss(optics::skin_shading(), fresh).rho_s, optics::skin_shading().rho_s);
+    optics::Shading one_lobe = optics::skin_shading();
+    one_lobe.specular_model = optics::SpecularModel::Ward;
+    EXPECT_LT(wound::with_gloss(one_lobe, fresh).alpha_x, one_lobe.alpha_x);
     EXPECT_EQ(wound::with_gloss(optics::published_shading(), fresh), optics::published_shading())
         << "eq. (7) alone";
     wound.on(365);
@@ -112,6 +116,31 @@ TEST(SkinBlend, LeavesSkinUnchangedThatTheWoundDoesNotReach)
     expect_untouched(wound.seen(place({-.999, .999})));
     expect_untouched(wound.seen(place({5, 0})));
     expect_untouched(wound.seen(place({0, 0}, 0)));
+}
+
+TEST(SkinBlend, BumpsAreSeenFromNearAndBroadenTheHighlightFromFar)
+{
+    Wound wound;
+    wound.healing.model = wound::HealingModel::Face;
+    wound.on(0);
+    const double texel_mm = wound.prepared.patch.width_mm / 128;
+    EXPECT_GT(wound::relief_parameters(wound.today, texel_mm).bump_mm, 0);
+    double roughness = 0, variance_near = 0, variance_far = 0;
+    for (double x = -.3; x < .3; x += .01) { // the floor, far from the walls
+        const wound::SkinPoint here = wound.seen(place({x, 0})), beside = wound.seen(place({x + .02, 0}));
+        roughness += cv::norm(here.normal - beside.normal);
+        variance_near += here.slope_variance;
+        wound::PatchPlace far = place({x, 0});
+        far.footprint = {.02, .02};
+        variance_far += wound.seen(far).slope_variance;
+    }
+    EXPECT_EQ(variance_near, 0);
+    EXPECT_GT(variance_far, 0);
+    EXPECT_GT(roughness / 60, .02);
+    wound.healing.model = wound::HealingModel::Contraction; // the paper's wounds have a depth alone
+    wound.on(0);
+    EXPECT_EQ(wound::relief_parameters(wound.today, texel_mm).bump_mm, 0);
+    EXPECT_EQ(wound::relief_parameters(wound.today, texel_mm).slope_limit, 0);
 }
 
 TEST(SkinBlend, WallsOfTheCavityTiltTheNormalAndOccludeLight)

@@ -117,19 +117,6 @@ double translucency(const Shading& shading, double d)
     return bound > 0 ? std::pow(std::pow(published, -4) + std::pow(bound, -4), -0.25) : 0;
 }
 
-// J. Jimenez, X. Wu, A. Pesce & A. Jarabo 2016, "Practical Real-Time Strategies for Accurate Indirect
-// Occlusion".
-base::Color visibility(double open, const base::Color& albedo)
-{
-    base::Color result;
-    for (int c = 0; c < 3; ++c) {
-        const double a = 2.0404 * albedo[c] - .3324, b = -4.7951 * albedo[c] + .6417,
-                     first = 2.7552 * albedo[c] + .6903;
-        result[c] = std::max(open, ((open * a + b) * open + first) * open);
-    }
-    return result;
-}
-
 base::Color blend(BlendModel model, const base::Color& wound, const base::Color& reflectance,
                   const base::Color& skin, double recovery)
 {

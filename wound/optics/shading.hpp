@@ -140,11 +140,6 @@ double translucency(const Shading& shading, double d);
 base::Color blend(BlendModel model, const base::Color& wound, const base::Color& reflectance,
                   const base::Color& skin, double recovery);
 
-/// The share of a point's surroundings that it sees, after light has gone back and forth in the hollow:
-/// `open` 0..1 without that, `albedo` the share that the hollow reflects diffusely. `open` or more, and at
-/// most 1.
-base::Color visibility(double open, const base::Color& albedo);
-
 /// What changes the highlight from point to point.
 struct Finish
 {

@@ -139,16 +139,6 @@ double specular_albedo(const Shading& shading, const Finish& finish, const cv::V
     return fresnel_scale(shading) * sum;
 }
 
-double specular_occlusion(double open, double cosine)
-{
-    return std::pow(std::clamp(cosine, 1e-3, 1.), 2 * (1 - open) / std::max(open, 1e-3));
-}
-
-double above_horizon(double cosine)
-{
-    return square(std::clamp(1 + 1.3 * cosine, 0., 1.));
-}
-
 double fresnel_scale(const Shading& shading)
 {
     return shading.rho_s / skin_rho_s;

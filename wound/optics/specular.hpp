@@ -42,16 +42,6 @@ double specular_albedo(const Shading& shading, const Finish& finish, const cv::V
 /// Nearly the same in closed form, for slopes alpha_x, alpha_y of .06 to .6: R0 + c (1 - cos)^4, times
 /// fresnel_scale().
 double ambient_specular(const Shading& shading, const Finish& finish, double cosine);
-/// The share of light from all around that occlusion leaves to the highlight, where it leaves `open` (0..1)
-/// to diffuse light. `cosine` between normal and viewer. What occludes a head stands at its horizon: the
-/// higher a direction, the more is open. cosine^p does that, and p is such that its cosine-weighted mean is
-/// `open`.
-double specular_occlusion(double open, double cosine);
-/// The share of a mirrored direction's lobe above the surface that has no normal map and no wound. `cosine`
-/// between the direction and that surface's normal, -1..1. J. Russell, "Horizon Occlusion for Normal Mapped
-/// Reflections".
-double above_horizon(double cosine);
-
 /// Factor on Fresnel's reflectance.
 double fresnel_scale(const Shading& shading);
 /// c of ambient_specular() without a film.

@@ -32,7 +32,7 @@ base::Color walked_length_mm(const SkinLayers& tissue)
     return length;
 }
 
-double square(double x)
+double squared(double x)
 {
     return x * x;
 }
@@ -82,10 +82,10 @@ double diffusion_width(double albedo, double scattering_length)
 
 double received_bent(double cosine, double turn)
 {
-    const double within = square(std::min(turn, 0.25)), bend = within / (1 + 7 * within);
+    const double within = squared(std::min(turn, 0.25)), bend = within / (1 + 7 * within);
     const double peak = 1 - 7 * bend; // where the ball faces the light; sqrt(bend) at the terminator
     const double slope = peak - bend / peak;
-    return (slope * cosine + std::sqrt(square(slope * cosine) + 4 * bend)) / 2;
+    return (slope * cosine + std::sqrt(squared(slope * cosine) + 4 * bend)) / 2;
 }
 
 double bend_gain(double albedo, double turn)

@@ -10,7 +10,7 @@
 //   path between two scatterings, within 9 % for albedos of .07 to .7. So a point's width follows from
 //   its own albedo and one length of the tissue, as in the reference.
 // - What a ball returns depends on the cosine, on d x curvature and, by a factor, on the albedo: a hyperbola, fitted to
-//   random walks in balls within .02 of full light up to d x curvature .1 (a nose's tip in red light is at .05).
+//   random walks in balls within .023 of full light up to d x curvature .1 (a nose's tip in red light is at .05).
 //   Penner wraps the profile of a plane round the ball and normalises it. That misses what a convex body returns
 //   more than a plane, since light that would go deep comes out at the other side: 12 to 20 % at .05.
 // - A slab passes e^(-t/3d) of the light.
