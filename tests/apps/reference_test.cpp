@@ -92,7 +92,7 @@ TEST_F(ReferenceCommand, RefusesBadInputInOneLine)
 TEST_F(ReferenceCommand, LambertPictureIsThatOfTheRasteriser)
 {
     const std::string file = scene(R"("size": "128x128", "days": [0], "wounds": [], "shading": {
-        "translucency": false, "ward": false, "shadow": false, "ambient": [0, 0, 0]})");
+        "transport": "lambert", "ward": false, "shadow": false, "ambient": [0, 0, 0]})");
     const Outcome outcome = run({"compare", file, "--reference", "--samples", "64", "--no-subsurface",
                                  "--bounces", "0", "--no-ambient", "--validation"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;

@@ -189,7 +189,7 @@ TEST_F(Report, SharesAndTimesAddUp)
         EXPECT_NEAR(summary.coverage, passes, 1e-9);
         EXPECT_LE(summary.coverage, 1);
         EXPECT_GT(summary.process_cpu_ms.median, 0);
-        EXPECT_EQ(summary.sum_ms.has_value(), passes > 0);
+        EXPECT_EQ(summary.sum_ms.has_value(), passes > 0 || summary.name == "read-back") << "a GPU had work";
         if (summary.sum_ms) {
             EXPECT_LE(summary.sum_ms->median, summary.envelope_ms.value().median + 1e-9);
             EXPECT_LE(summary.envelope_ms->median, summary.wall_ms.median);
