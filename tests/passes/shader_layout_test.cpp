@@ -63,7 +63,7 @@ TEST(ShaderLayout, Labels)
 
 TEST(ShaderLayout, Shading)
 {
-    for (const char* stage : {"forward.frag", "forward.vert"}) {
+    for (const char* stage : {"forward.frag", "forward.vert", "shading_test.comp"}) {
         gpu_test::expect_layout(
             stage, "ShadingParams", sizeof(ShadingParams),
             {CICATRIX_MEMBER(ShadingParams, rho_d), CICATRIX_MEMBER(ShadingParams, rho_ts),
@@ -78,9 +78,10 @@ TEST(ShaderLayout, Shading)
                                  CICATRIX_MEMBER(Light, direction),
                                  CICATRIX_MEMBER(Light, reference_distance), CICATRIX_MEMBER(Light, strength),
                                  CICATRIX_MEMBER(Light, distance_scale)});
+    }
+    for (const char* stage : {"forward.frag", "forward.vert"})
         gpu_test::expect_layout(stage, "Lighting", sizeof(Lighting),
                                 {CICATRIX_MEMBER(Lighting, count), CICATRIX_MEMBER(Lighting, light)});
-    }
 }
 
 TEST(ShaderLayout, Shadow)
