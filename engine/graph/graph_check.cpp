@@ -171,12 +171,19 @@ class GraphChecker
         for (const ImageDesc& desc : outputs)
             if (desc.width != outputs.front().width || desc.height != outputs.front().height)
                 complain("pass {}: confines a change to a region, but writes images of several sizes", name_of(pass));
+        std::set<std::string> seen;
         for (const Reach::Confined& input : confined) {
             const bool block = std::visit(
                 [&](const Bindings& bindings) { return find_named(bindings.data, input.block) != nullptr; }, pass);
             const std::string name = input.block.empty() ? image_name(input.image) : input.block;
+            if (!seen.insert(name).second)
+                complain("pass {}: confines changes of {} twice", name_of(pass), name);
             if (input.block.empty() ? !read.contains(input.image.index) : !block)
                 complain("pass {}: confines changes of {}, which it does not read", name_of(pass), name);
+            if (!input.region && known(input.image))
+                for (const ImageDesc& desc : outputs)
+                    if (desc.width != image(input.image).desc.width || desc.height != image(input.image).desc.height)
+                        complain("pass {}: works in place on {}, which is not of its images' size", name_of(pass), name);
             for (const ImageDesc& desc : outputs)
                 if (input.region && (input.region->x + input.region->width > desc.width ||
                                      input.region->y + input.region->height > desc.height))

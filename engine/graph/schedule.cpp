@@ -176,6 +176,12 @@ class Scheduler
             planned.reason = always ? "every frame" : why_run(planned.name, key, outdated);
             plan_run(position);
         }
+        // Where an input that stands was drawn at, it still is, unless everything is drawn anew.
+        if (const auto last = before_.passes.find(planned.name);
+            last != before_.passes.end() && (planned.state == PassState::Skipped || planned.region))
+            for (std::size_t i = 0; i < std::min(key.size(), last->second.size()); ++i)
+                if (key[i] == last->second[i] && key[i].region && last->second[i].region)
+                    key[i].region = bounds(*key[i].region, *last->second[i].region);
         plan_.memory.passes[planned.name] = std::move(key);
     }
 

@@ -98,18 +98,24 @@ graph::Graph spot_frame(float step, float tint, const graph::Region& region)
 
 TEST_F(ExecutorTest, AConfinedChangeWritesItsRegionAndKeepsTheRest)
 {
-    constexpr graph::Region region{3, 2, 9, 7};
+    constexpr graph::Region region{9, 8, 5, 3}; // not in the first work group of 8 x 8
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
-    executor.run(spot_frame(1, 1, region));
-    const gpu::FrameResult second = executor.run(spot_frame(2, 3, region));
-    EXPECT_NEAR(second.pass("show").refreshed, 63 / 240., 1e-12);
-    EXPECT_EQ(second.pass("show").bytes_written, 63u * 16);
-    const cv::Mat4f shown = second.mat({0});
+    const auto draw = [&](float step, float tint) {
+        graph::Graph graph = spot_frame(step, tint, region);
+        graph.readback("filled", graph::ImageId{0});
+        return executor.run(graph);
+    };
+    draw(1, 1);
+    const gpu::FrameResult second = draw(2, 3);
+    EXPECT_NEAR(second.pass("show").refreshed, 15 / 240., 1e-12);
+    EXPECT_EQ(second.pass("show").bytes_written, 15u * 16);
+    const cv::Mat4f shown = second.mat({0}), filled = second.mat({1});
     for (int y = 0; y < shown.rows; ++y)
         for (int x = 0; x < shown.cols; ++x) {
-            const bool inside = x >= 3 && x < 12 && y >= 2 && y < 9;
-            // Compute writes whole work groups of the region: 8 x 8 of them cover this image's first 16 columns.
+            const bool inside = x >= 9 && x < 14 && y >= 8 && y < 11;
+            const bool computed = x >= 8 && x < 16 && y >= 8; // whole work groups
             ASSERT_EQ(shown(y, x)[0], inside ? 3 * (0.25f + 2 * float(x)) : 0.25f + float(x)) << x << ' ' << y;
+            ASSERT_EQ(filled(y, x)[0], 0.25f + (computed ? 2 : 1) * float(x)) << x << ' ' << y;
         }
 }
 

@@ -115,8 +115,17 @@ TEST(GraphCheck, RefusesRegionsOfWhatAPassDoesNotReadOrThatItsImagesDoNotHold)
     pass.dispatch(8, 8);
     pass.confine("Block", {0, 0, 9, 8});
     pass.confine("Blok", {0, 0, 1, 1});
+    pass.confine("Blok", {0, 0, 2, 2});
     pass.in_place(graph.import("albedo", graph::ExternalImage{target, VK_NULL_HANDLE, 1}));
+    const graph::ImageId wide = graph.import("wide", graph::ExternalImage{{64, 8, target.format}, VK_NULL_HANDLE, 2});
+    graph::ComputePass& second = graph.compute("second", "x.comp");
+    second.sample("input", wide);
+    second.store("output", graph.image("narrow", {8, 8, target.format}));
+    second.dispatch(8, 8);
+    second.in_place(wide);
     const std::string text = mistakes(graph);
+    EXPECT_THAT(text, HasSubstr("pass pass: confines changes of Blok twice"));
+    EXPECT_THAT(text, HasSubstr("pass second: works in place on wide, which is not of its images' size"));
     EXPECT_THAT(text, HasSubstr("pass pass: confines a change to a region, but writes images of several sizes"));
     EXPECT_THAT(text, HasSubstr("pass pass: confines changes of Block to a region beyond its images"));
     EXPECT_THAT(text, HasSubstr("pass pass: confines changes of Blok, which it does not read"));

@@ -332,6 +332,14 @@ TEST(Schedule, ARegionThatMovesRefreshesWhereItWasToo)
     EXPECT_EQ(pass_plan(plan, "forward").region, graph::bounds(spot, moved_spot));
 }
 
+TEST(Schedule, WhereAnInputThatStandsWasDrawnIsNotForgotten)
+{
+    graph::Memory memory = graph::schedule(Spot(3, spot).graph, {}).memory;
+    memory = graph::schedule(Spot(3, moved_spot).graph, memory).memory; // nothing runs
+    EXPECT_EQ(pass_plan(graph::schedule(Spot(4, moved_spot).graph, memory), "forward").region,
+              graph::bounds(spot, moved_spot));
+}
+
 TEST(Schedule, AChangeThatIsNotConfinedRefreshesEverything)
 {
     graph::Memory memory = graph::schedule(Spot(3, spot).graph, {}).memory;
