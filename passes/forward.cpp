@@ -7,6 +7,7 @@
 
 #include "passes/shading.hpp"
 #include "shaders/shared/part.h"
+#include "wound/optics/specular.hpp"
 
 namespace passes {
 namespace {
@@ -37,13 +38,16 @@ shared::WoundFrame wound_frame(const ForwardWound& wound)
             .sheen = float(today.scar.sheen)};
 }
 
-shared::Part part_params(const HeadPart& part)
+shared::Part part_params(const HeadPart& part, optics::Shading shading)
 {
     const head::Gloss gloss = head::gloss_of(part.surface);
+    shading.alpha_x *= gloss.slope;
+    shading.alpha_y *= gloss.slope;
     return {.albedo_factor = part.albedo_factor,
             .normal_scale = part.normal_scale,
             .specular = float(gloss.specular),
             .slope = float(gloss.slope),
+            .grazing = float(optics::grazing_reflectance(shading)),
             .translucency = part.surface == head::Surface::Eye ? 0.5f : 1.f,
             .scattering = part.surface == head::Surface::Skin ? 1.f : 0.f};
 }
@@ -170,7 +174,7 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
         draw.cull_back_faces = !part.double_sided;
         draw.blend = part.blend;
         draw.depth_write = !part.blend;
-        const shared::Part params = part_params(part);
+        const shared::Part params = part_params(part, shading);
         draw.uniform("Part_", params);
         draw.constant("WARD", shading.glossy() && params.specular > 0);
         draw.sample("albedo_map", graph.import(fmt::format("albedo {}", i), *part.albedo),

@@ -155,7 +155,7 @@ base::Color PathTracer::received(const SurfacePoint& point, const glm::dvec3& no
 base::Color PathTracer::specular(const SurfacePoint& point, const glm::dvec3& normal,
                                  const glm::dvec3& to_viewer, Random& random) const
 {
-    const double open = point.skin.skin.occlusion; // of a wound's hollow
+    const double open = optics::only_ward(shading_) ? 1 : point.skin.skin.occlusion; // of a wound's hollow
     optics::Shading gloss = wound::with_gloss(shading_, point.skin.skin);
     gloss.rho_s *= point.look->gloss.specular;
     gloss.alpha_x *= point.look->gloss.slope;

@@ -66,7 +66,7 @@ ReducedTissue DayWounds::tissue_under(std::size_t wound, bool bed, double day) c
             : optics::covered_bed(here, day, wound::closure_day(healing.curve));
     const wound::DayMaps& maps = wounds_[wound].maps;
     const double depth_mm = bed ? median_depth_mm(maps, 0, 2) : median_depth_mm(maps, 1, 3);
-    return kept_reduction(base::cache_folder(), optics::layers_at(tissue, depth_mm), *table_, choice_);
+    return kept_reduction(base::cache_folder(), optics::layers_at(tissue, depth_mm, optics::is_the_papers(scene_.scene.reflectance_model)), *table_, choice_);
 }
 
 DayWounds::SkinLook DayWounds::at(const glm::dvec3& position, const glm::dvec3& smooth,

@@ -60,15 +60,16 @@ void draw_control_points(Workbench& bench)
     const scene::PlacedWound& placed = loaded.wounds.front();
     const wound::PreparedWound prepared = with_few_points(placed.prepared());
     const wound::Photograph photograph = scene::read_photograph(loaded.scene.wounds.front());
-    const cv::Mat3b color = fresh_wound(bench.cheek());
+    const std::vector<RecoveringColor> stages =
+        recovering_colors(loaded, Equations::Published, {0, 1 - contracted});
+    const cv::Mat3b color = base::srgb_from_linear(stages[0].color);
     const wound::Warp warp = wound::make_warp(prepared.flow, contracted, paper_warp);
     const double day = wound::day_below(placed.healing.curve, contracted),
                  depth_scale = wound::healing_at(placed.healing, day).depth_scale;
     const cv::Mat1f depth = wound::warp_image(prepared.patch.depth_mm, warp) * depth_scale;
     double deepest = 0;
     cv::minMaxLoc(depth, nullptr, &deepest);
-    const cv::Mat3f reflectance = wound::warp_image(
-        recovering_colors(loaded, Equations::Published, {1 - contracted}).front().reflectance, warp);
+    const cv::Mat3f reflectance = wound::warp_image(stages[1].reflectance, warp);
 
     const stage::Stage& stage = bench.showing(loaded.scene);
     const std::vector<base::SheetCell> cells{
@@ -173,7 +174,7 @@ struct Tissue
 Tissue tissue_of(Equations equations)
 {
     if (equations == Equations::Published)
-        return {optics::table1(), optics::ReflectanceModel::Published, optics::BlendModel::Published};
+        return {*optics::healing_tissue_named("table1"), optics::ReflectanceModel::Published, optics::BlendModel::Published};
     const scene::Scene usual;
     return {optics::healing_tissue_or_file(usual.tissue), usual.reflectance_model, usual.shading.blend_model};
 }
@@ -186,7 +187,7 @@ class ReflectanceByDepth
         : per_mm_(steps / std::max(deepest_mm, 1e-6))
     {
         for (int i = 0; i <= steps; ++i)
-            colors_.push_back(optics::tissue_color(optics::layers_at(day, i / per_mm_), model));
+            colors_.push_back(optics::tissue_color(optics::layers_at(day, i / per_mm_, optics::is_the_papers(model)), model));
     }
     base::Color at(double depth_mm) const
     {
@@ -229,11 +230,12 @@ std::vector<RecoveringColor> recovering_colors(const scene::LoadedScene& loaded,
     const cv::Mat3f skin = skin_under(loaded, placed);
     double deepest = 0;
     cv::minMaxLoc(patch.depth_mm, nullptr, &deepest);
+    const optics::HealingTissue here = wound::at_place(tissue.tissue, placed.fitted().thickness);
     std::vector<RecoveringColor> all;
     for (const double recovery : recoveries) {
         const double left = std::max(1 - recovery, wound::closed_ratio),
                      day = wound::day_below(placed.healing.curve, left);
-        const ReflectanceByDepth reflectance(optics::open_bed(tissue.tissue, day, std::sqrt(1 - recovery)),
+        const ReflectanceByDepth reflectance(optics::open_bed(here, day, std::sqrt(1 - recovery)),
                                              tissue.model, deepest);
         RecoveringColor now{recovery, cv::Mat3f(skin.size()), cv::Mat3f(skin.size())};
         for (int y = 0; y < skin.rows; ++y)

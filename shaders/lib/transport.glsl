@@ -5,6 +5,8 @@
 #include "lib/shadow.glsl"
 #include "shared/shading.h"
 
+const float LEAST_WIDTH_M = 1e-6; // where no light enters
+
 // A point of the skin. diffuse_skin() makes it, once for all lights.
 struct DiffuseSkin
 {
@@ -21,7 +23,7 @@ DiffuseSkin diffuse_skin(uint transport, vec3 albedo, vec3 scattering, vec2 curv
     DiffuseSkin skin = DiffuseSkin(albedo, vec3(0.0), vec3(1.0), vec3(0.0), vec3(1.0), vec3(1.0));
     if (transport == TRANSPORT_PREINTEGRATED)
     {
-        skin.width = max(albedo * scattering, vec3(1e-6));
+        skin.width = max(albedo * scattering, vec3(LEAST_WIDTH_M));
         vec3 turn = min(curvature.y * skin.width, 0.25); // radians
         vec3 square = turn * turn;
         skin.bend = square / (1.0 + 7.0 * square);
@@ -59,7 +61,9 @@ vec3 leaving(uint transport, DiffuseSkin skin, vec3 strength, vec3 local_light, 
     vec3 cosine = mix(vec3(facing), vec3(local_light.z), skin.detail);
     vec3 reflected = skin.albedo * skin.gain * received_bent(skin, cosine) * softened(skin.width, shade);
     // Through a thin part, from its far side, which is taken to face the light as this side turns away from it.
-    vec3 passed = max(-facing, 0.0) * exp(-shade.through_m / (3.0 * skin.width));
+    // Nothing passes what no light enters: hair, and a channel without albedo.
+    vec3 passed = max(-facing, 0.0) * exp(-shade.through_m / (3.0 * skin.width)) *
+                  vec3(greaterThan(skin.width, vec3(LEAST_WIDTH_M)));
     return max(reflected, passed) * strength;
 }
 

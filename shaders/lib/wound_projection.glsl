@@ -28,6 +28,7 @@ ShadingParams with_gloss(uint specular_model, bool only_ward, ShadingParams p, P
     p.rho_s *= gloss;
     p.fresnel_scale *= gloss;
     p.mirrored *= gloss;
+    p.grazing = part.grazing;
     return p;
 }
 

@@ -12,6 +12,7 @@ struct Part
     float normal_scale;  // glTF: multiplies the normal map's x and y
     float specular;      // multiplies rho_s: an eye is smooth, a brow has no highlight
     float slope;         // multiplies the slopes of Ward's lobe
+    float grazing;       // SPECULAR_SKIN: c of ambient_specular() for the part's slopes
     float translucency;  // multiplies rho_ts
     float scattering;    // 1: light enters, as it does skin; 0: it does not
 };

@@ -33,6 +33,7 @@ TEST(ShaderLayout, Part)
     gpu_test::expect_layout("forward.frag", "Part", sizeof(Part),
                             {CICATRIX_MEMBER(Part, albedo_factor), CICATRIX_MEMBER(Part, normal_scale),
                              CICATRIX_MEMBER(Part, specular), CICATRIX_MEMBER(Part, slope),
+                             CICATRIX_MEMBER(Part, grazing),
                              CICATRIX_MEMBER(Part, translucency), CICATRIX_MEMBER(Part, scattering)});
 }
 

@@ -50,7 +50,9 @@ base::Color preintegrated(const Shading& shading, const ShadedPoint& point, cons
         const double reflected = albedo * bend_gain(albedo, point.curvature[0] * width) *
                                  received_bent(cosine, point.curvature[1] * width) *
                                  softened(visibility, width, map.filter_m);
-        sum[c] = std::max(reflected, std::max(0.0, -facing) * passed(map.through_m, width));
+        const double through = // nothing passes what no light enters
+            width > least_width_m ? std::max(0.0, -facing) * passed(map.through_m, width) : 0;
+        sum[c] = std::max(reflected, through);
     }
     return sum;
 }
