@@ -10,7 +10,6 @@
 #include "head/surface.hpp"
 #include "head/vectors.hpp"
 #include "wound/optics/tissue_choice.hpp"
-#include "wound/optics/transport.hpp"
 #include "wound/prepare.hpp"
 
 namespace scene {
@@ -230,13 +229,9 @@ LoadedScene assemble(const Scene& scene, WoundLoader& loader, const LoadedScene&
         loaded.shown = before.shown; // the new wounds may be placed for the new head
         loaded.complete = false;
     }
-    if ((before.complete || !before.shown.empty()) && scene.tissue == before.scene.tissue) {
-        loaded.tissue = before.tissue;
-        loaded.scattering_length_mm = before.scattering_length_mm;
-    } else {
-        loaded.tissue = optics::healing_tissue_or_file(scene.tissue);
-        loaded.scattering_length_mm = optics::scattering_length_mm(optics::layers_of(loaded.tissue));
-    }
+    loaded.tissue = (before.complete || !before.shown.empty()) && scene.tissue == before.scene.tissue
+                        ? before.tissue
+                        : optics::healing_tissue_or_file(scene.tissue);
     loaded.notes = loaded.head->notes;
     loaded.lights = make_lights(scene, loaded.head->face);
     place_wounds(loaded, loader, before, dragging);

@@ -40,7 +40,6 @@ struct LoadedScene
     std::vector<PlacedWound> wounds;
     std::vector<optics::Light> lights;
     optics::HealingTissue tissue;
-    base::Color scattering_length_mm{0, 0, 0}; // of the tissue (optics/transport.hpp)
     std::vector<std::string> notes; // lines for the user ("no normals: computed")
 
     /// Whether head and wounds are those of `scene`; false while a worker is still making one of them.

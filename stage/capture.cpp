@@ -28,7 +28,7 @@ constexpr std::size_t most_cells = 48;   // of healing.png, spread evenly over a
 constexpr std::uint32_t close_up = 1280; // px, longest side; the sheet shows it scaled down
 
 /// Wall-clock milliseconds since the process started; none if /proc is not readable.
-std::optional<double> process_cpu_ms()
+std::optional<double> process_ms()
 {
     // Field 22 of /proc/self/stat: start time in clock ticks since boot. Field 2, the program's name, may
     // contain blanks and parentheses.
@@ -142,7 +142,7 @@ class Capture
         progress_.show(label(shot));
         const Drawing drawing = draw(renderer_, stage_, shot, draw_options_);
         if (!first_picture_ms_)
-            first_picture_ms_ = process_cpu_ms();
+            first_picture_ms_ = process_ms();
         write(shot, drawing);
         const std::vector<wound::WoundDay>& today = *drawing.wounds;
         json record{{"day", shot.day},

@@ -55,6 +55,8 @@ void Stage::accept(Set set)
 {
     if (!same_wounds(set.loaded, set_.loaded))
         known_days_.clear();
+    if (set.loaded.scene.tissue != set_.loaded.scene.tissue)
+        scattering_length_mm_.reset();
     set_ = std::move(set);
     if (set_.loaded.complete)
         whole_ = set_;
@@ -169,9 +171,18 @@ passes::LutTissue Stage::make_lut(const Set& set, const scene::PlacedWound& woun
 void Stage::set_tissue(const optics::HealingTissue& tissue)
 {
     set_.loaded.tissue = tissue;
-    set_.loaded.scattering_length_mm = optics::scattering_length_mm(optics::layers_of(tissue));
+    scattering_length_mm_.reset();
     for (std::size_t i = 0; i < set_.wounds.size(); ++i)
         set_.wounds[i].tissue = make_lut(set_, set_.loaded.wounds[i]);
+}
+
+base::Color Stage::scattering_length_mm(const optics::Shading& shading) const
+{
+    if (shading.drawn_transport() != optics::Transport::Preintegrated)
+        return {0, 0, 0};
+    if (!scattering_length_mm_)
+        scattering_length_mm_ = optics::scattering_length_mm(optics::layers_of(set_.loaded.tissue));
+    return *scattering_length_mm_;
 }
 
 std::shared_ptr<const std::vector<wound::WoundDay>> Stage::wounds_on(double day) const
@@ -197,6 +208,7 @@ shared::View Stage::view(const head::Camera& camera, const passes::ViewportTile&
 Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
 {
     const scene::Scene& scene = set_.loaded.scene;
+    const optics::Shading shading = request.shading.value_or(scene.shading);
     Frame frame{{}, wounds_on(request.day)};
     std::vector<passes::FrameWound> wounds;
     for (std::size_t i = 0; i < set_.wounds.size(); ++i) {
@@ -210,13 +222,13 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
                                              .wounds = wounds,
                                              .lights = set_.loaded.lights,
                                              .camera = request.camera.value_or(set_.loaded.camera()),
-                                             .shading = request.shading.value_or(scene.shading),
+                                             .shading = shading,
                                              .reflectance = scene.reflectance_model,
                                              .tile = request.tile,
                                              .samples = scene.samples,
                                              .exposure_stops = float(scene.exposure_stops),
                                              .every_frame = request.every_frame,
-                                             .scattering_length_mm = set_.loaded.scattering_length_mm});
+                                             .scattering_length_mm = scattering_length_mm(shading)});
     return frame;
 }
 

@@ -127,6 +127,8 @@ class Stage
     passes::LutTissue make_lut(const Set& set, const scene::PlacedWound& wound) const;
     passes::LutTissue lut_of(const Set& set, const scene::PlacedWound& wound) const;
     void accept(Set set);
+    /// Of the tissue; 0 for a shading whose transport does not use it.
+    base::Color scattering_length_mm(const optics::Shading& shading) const;
 
     const gpu::Device* device_;
     std::shared_ptr<scene::WoundLoader> loader_;
@@ -134,6 +136,7 @@ class Stage
     std::uint64_t seen_news_ = 0;
     bool dragging_ = false;
     Set set_, whole_;                         // whole_: the last complete set
+    mutable std::optional<base::Color> scattering_length_mm_; // of set_'s tissue, once a frame has asked for it
     mutable std::deque<KnownDay> known_days_; // of set_, most recently requested first
 };
 

@@ -97,8 +97,16 @@ std::array<DiffusionProfile, 3> diffusion_profile(const SkinLayers& tissue, cons
     const std::span<const base::Color> weights = channel_weights(tissue.channels());
     assert(!weights.empty());
     std::array<DiffusionProfile, 3> profiles{empty_profile(), empty_profile(), empty_profile()};
-    for (std::size_t i = 0; i < tissue.channels(); ++i) {
-        DiffusionProfile profile = diffusion_profile(tissue.channel(i), options);
+    // Of many wavelengths each is a short walk: they share the threads.
+    std::vector<DiffusionProfile> parts(tissue.channels());
+    const bool spectral = parts.size() > profiles.size();
+    ReflectanceOptions alone = options;
+    if (spectral)
+        alone.threads = 1;
+    base::in_parallel(parts.size(), spectral ? options.threads : 1,
+                      [&](std::size_t i) { parts[i] = diffusion_profile(tissue.channel(i), alone); });
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        DiffusionProfile& profile = parts[i];
         profile.radius_mm *= profile.albedo;
         for (int c = 0; c < 3; ++c)
             add(profiles[std::size_t(c)], profile, weights[i][c]);
