@@ -1,10 +1,10 @@
 #include "head/curvature.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
+
+#include "head/weld.hpp"
 
 namespace head {
 namespace {
@@ -14,25 +14,6 @@ constexpr double most_curvature = 1000; // 1/m
 constexpr int most_rounds = 12;         // of averaging: finer meshes are averaged over less
 
 using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
-
-/// One number for all vertices at a position.
-std::vector<std::uint32_t> places_of(const Model& model, std::uint32_t& count)
-{
-    std::vector<std::uint32_t> order(model.vertices.size()), place(model.vertices.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto position = [&](std::uint32_t v) {
-        const glm::vec3& p = model.vertices[v].position;
-        return std::array{p.x, p.y, p.z};
-    };
-    std::ranges::sort(order, {}, position);
-    count = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        count += i > 0 && position(order[i]) != position(order[i - 1]);
-        place[order[i]] = count;
-    }
-    ++count;
-    return place;
-}
 
 /// Of triangles; an edge of two triangles is there twice.
 Edges edges_of(const Model& model, const std::vector<std::uint32_t>& place)
@@ -92,8 +73,11 @@ int rounds_of(const Edges& edges, const std::vector<glm::dvec3>& at)
 
 void compute_curvature(Model& model)
 {
-    std::uint32_t count = 0;
-    const std::vector<std::uint32_t> place = places_of(model, count);
+    const std::size_t count = model.vertices.size(); // at least as many as places
+    const std::vector<std::uint32_t> place = weld<3>(count, [&](std::size_t v) {
+        const glm::vec3& p = model.vertices[v].position;
+        return Key<3>{{bits_of(p.x), bits_of(p.y), bits_of(p.z)}};
+    });
     const Edges edges = edges_of(model, place);
     Surface surface{std::vector<glm::dvec3>(count), std::vector<glm::dvec3>(count, glm::dvec3(0))};
     for (std::size_t v = 0; v < model.vertices.size(); ++v) {

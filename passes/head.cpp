@@ -15,17 +15,14 @@ void append_split(const head::Model& model, std::span<const head::Anchor> anchor
 {
     std::vector<std::uint32_t> split[2];
     for (std::uint32_t i = part.first_index; i + 2 < part.first_index + part.index_count; i += 3) {
-        const std::uint32_t* corner = &model.indices[i];
-        const std::array<glm::vec3, 3> corners{model.vertices[corner[0]].position,
-                                               model.vertices[corner[1]].position,
-                                               model.vertices[corner[2]].position};
+        const auto triangle = head::corners_of(model, i);
         bool wounded = false;
-        for (std::size_t k = 0; k < anchors.size(); ++k)
-            if (part.surface == head::Surface::Skin && head::receives(anchors[k], corners)) {
+        for (std::size_t k = 0; part.surface == head::Surface::Skin && k < anchors.size(); ++k)
+            if (head::receives(anchors[k], triangle)) {
                 wounded = true;
-                head.wounded[k].push_back({corners, part.double_sided});
+                head.wounded[k].push_back({triangle, part.double_sided});
             }
-        split[wounded].insert(split[wounded].end(), corner, corner + 3);
+        split[wounded].insert(split[wounded].end(), &model.indices[i], &model.indices[i] + 3);
     }
     for (const bool wounded : {false, true}) {
         if (split[wounded].empty())

@@ -35,6 +35,15 @@ bool turned_to_viewer(const std::array<glm::dvec4, 3>& clip, const glm::dvec2& h
 
 } // namespace
 
+std::array<glm::dvec3, 8> corners(const Bounds& box)
+{
+    std::array<glm::dvec3, 8> result;
+    for (unsigned i = 0; i < 8; ++i)
+        result[i] = {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
+                     i & 4 ? box.max.z : box.min.z};
+    return result;
+}
+
 std::vector<Bounds> boxes_around(const head::Model& model)
 {
     const glm::vec3 extent = model.max - model.min;
@@ -63,11 +72,8 @@ std::vector<Bounds> boxes_in_view(std::span<const Bounds> boxes, const glm::mat4
     std::vector<Bounds> seen;
     for (const Bounds& box : boxes) {
         unsigned outside = ~0u;
-        for (unsigned i = 0; i < 8; ++i) {
-            const glm::dvec3 corner(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
-                                    i & 4 ? box.max.z : box.min.z);
+        for (const glm::dvec3& corner : corners(box))
             outside &= beyond(clip * glm::dvec4(corner, 1), glm::dvec2(1e-3));
-        }
         if (outside == 0)
             seen.push_back(box);
     }

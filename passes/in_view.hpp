@@ -16,6 +16,8 @@ struct Bounds
     glm::vec3 min, max; // metres
 };
 
+std::array<glm::dvec3, 8> corners(const Bounds& box);
+
 /// Some hundred boxes that together hold all triangles: each holds those whose middle lies in one cell of a
 /// grid.
 std::vector<Bounds> boxes_around(const head::Model& model);

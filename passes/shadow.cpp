@@ -11,15 +11,6 @@
 namespace passes {
 namespace {
 
-std::array<glm::dvec3, 8> corners(const glm::vec3& box_min, const glm::vec3& box_max)
-{
-    std::array<glm::dvec3, 8> result;
-    for (unsigned i = 0; i < 8; ++i)
-        result[i] = {i & 1 ? box_max.x : box_min.x, i & 2 ? box_max.y : box_min.y,
-                     i & 4 ? box_max.z : box_min.z};
-    return result;
-}
-
 // Looks along `forward`. The roll is arbitrary: up is the world's y or, for a nearly vertical light, -z.
 glm::dmat4 light_view(const glm::dvec3& eye, const glm::dvec3& forward)
 {
@@ -51,7 +42,7 @@ Window window_around(std::span<const Bounds> boxes, const glm::dmat4& view, bool
 {
     glm::dvec2 low(half), high(-half);
     for (const Bounds& box : boxes)
-        for (const glm::dvec3& corner : corners(box.min, box.max)) {
+        for (const glm::dvec3& corner : corners(box)) {
             const glm::dvec2 place(on_plane(view, corner, parallel));
             low = glm::min(low, place);
             high = glm::max(high, place);
@@ -97,7 +88,7 @@ std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::
 
     // Half width and height at unit depth (at any depth for a parallel light), and the span of depths.
     double half = 0, near = distance, far = distance;
-    for (const glm::dvec3& corner : corners(box_min, box_max)) {
+    for (const glm::dvec3& corner : corners({box_min, box_max})) {
         const glm::dvec3 place = on_plane(view, corner, parallel);
         half = std::max({half, std::abs(place.x), std::abs(place.y)});
         near = std::min(near, place.z);

@@ -19,15 +19,6 @@ double last_day(const Scene& scene)
     return std::max(1.0, *std::ranges::max_element(scene.days));
 }
 
-namespace {
-
-/// The paper's distance of 2 for a head that is 25 cm from chin to crown, as the default head is.
-constexpr double head_height_m = .25;
-constexpr double published_light_distance_m =
-    optics::paper_light_distance / optics::paper_width * head_height_m;
-
-} // namespace
-
 void make_published(Scene& scene)
 {
     scene.shading = optics::published_shading();

@@ -91,10 +91,10 @@ void make_figures(const FigureOptions& options)
     }
     if (bench.has_renderer())
         stage::fail_on_validation(bench.renderer().device);
-    if (figures.size() == all_figures().size())
+    const bool all = figures.size() == all_figures().size();
+    if (all)
         base::write_text(options.out / page_name, page + "</body></html>\n");
-    fmt::print("{}in {}\n", figures.size() == all_figures().size() ? "all on figures.html " : "",
-               options.out.string());
+    fmt::print("{}in {}\n", all ? fmt::format("all on {} ", page_name) : "", options.out.string());
 }
 
 } // namespace
@@ -109,8 +109,6 @@ void add(CLI::App& program)
                                                          "that shows them, {}",
                                                          fmt::join(names_of_all(), ", "), page_name));
     names->type_name("N");
-    const std::string all = "All figures, as without N";
-    command->add_flag("--all", all)->excludes(names);
     command->add_option("--out", options->out, "Folder for the figures")
         ->capture_default_str()
         ->type_name("DIR");
@@ -154,7 +152,7 @@ void add(CLI::App& program)
         "beside, labelled (docs/figures.md). Figures 2 and 3 need neither a head nor a device.\n"
         "Examples:\n"
         "  cicatrix figure 4 --out out/figures\n"
-        "  cicatrix figure --all --out out/figures\n"
+        "  cicatrix figure --out out/figures\n"
         "  cicatrix figure 1 4 6 --wound photo.jpg --mask mask.png\n"
         "  cicatrix figure frame-rate --frames 100");
     command->callback([options] { make_figures(*options); });

@@ -26,7 +26,7 @@ constexpr std::array<Figure, 10> figures{{
      "transmitted "
      "T, in one layer (a) and in several (b).",
      "The same diagram with the numbers of eqs. (2) and (3) for Table 1; the totals below show how far the "
-     "printed sum is from radiative transfer, and that our default is near it.",
+     "published sum is from radiative transfer, and that our default is near it.",
      draw_layers},
     {"4", "Scaling against warping",
      "A wound contracted by 60 % by scaling its image (a), and by the weighted warp (b), which keeps the "

@@ -134,10 +134,10 @@ void draw_frame_rate(Workbench& bench)
                               over["low"].get<double>(), over["high"].get<double>()));
     }
     bench.say(fmt::format("{}{}, {}, medians of {} frames of each case, drawn in turn; load before: {:.1f}. "
-                          "The paper: proposed / Ward = 115.5 / 114 = {:.3f}",
+                          "The paper: proposed / Ward = {:.3f}",
                           record["device"].get<std::string>(),
                           renderer.device.info().software ? " (a software rasteriser)" : "",
-                          record["size"].get<std::string>(), rounds.timed, load, 115.5 / 114));
+                          record["size"].get<std::string>(), rounds.timed, load, rates[0].fps / rates[2].fps));
 }
 
 } // namespace figure_command

@@ -30,7 +30,7 @@ std::filesystem::path scenes_folder()
 
 scene::Light paper_light(const scene::Direction& from)
 {
-    return {.from = from, .distance_m = .21, .falloff = false};
+    return {.from = from, .distance_m = scene::published_light_distance_m, .falloff = false};
 }
 
 scene::Scene Workbench::scene(const std::string& name, Equations equations,

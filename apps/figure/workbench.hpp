@@ -87,8 +87,7 @@ class Workbench
     std::vector<std::string> files_, lines_;
 };
 
-/// The light of the paper's section 6.3: white, without falloff, at distance 2 from the middle of an object
-/// 2.2 wide, here .21 m from a head .23 m high.
+/// The light of the paper's section 6.3: white, without falloff, at the paper's distance.
 scene::Light paper_light(const scene::Direction& from);
 
 } // namespace figure_command

@@ -230,7 +230,7 @@ void add(CLI::App& program)
             ->add_option("--against", options->against,
                          "Compare with this earlier report.json: ratios, and which of them exceed the noise")
             ->type_name("REPORT.json");
-    command
+    auto* sweep = command
         ->add_option(
             "--sweep", options->sweeps,
             "Instead of the cases, measure how the cost grows with: size, triangles, wounds, points "
@@ -244,7 +244,8 @@ void add(CLI::App& program)
                      fmt::format("Only these cases, separated by commas: {}", fmt::join(case_names(), ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(case_names()))
-        ->type_name("NAME");
+        ->type_name("NAME")
+        ->excludes(sweep);
     command->footer("Examples: cicatrix report --out before\n"
                     "          cicatrix report --out after --against before/report.json\n"
                     "          cicatrix report --sweep size,wounds --frames 20\n"

@@ -168,7 +168,7 @@ TEST(FigureCommand, DrawsChartsWithoutAHeadOrADevice)
 TEST(FigureCommand, DrawsAllFiguresOnOnePage)
 {
     const TemporaryFolder folder;
-    const Outcome outcome = run_program({"figure", "--all", "--out", (folder / "out").string(), "--head",
+    const Outcome outcome = run_program({"figure", "--out", (folder / "out").string(), "--head",
                                          small::saved(small::head()).string(), "--cell", "60", "--size",
                                          "64x64", "--frames", "5", "--validation"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;

@@ -279,15 +279,13 @@ TEST_F(SkinBlendOnGpu, OcclusionOfTheHeadEqualsThatOfTheCpu)
     const wound::WoundLook look = scene.look(today, maps);
     optics::Shading shading = lit({});
     shading.ambient = ambient;
-    constexpr double bounced_share = .4; // shaders/forward.frag
     const Difference found = compare(scene.draw(today, shading, {light}), [&](int x, int y) {
         const wound::SkinPoint skin =
             wound::with_wound({own_albedo, mapped}, look, scene.place(x, y), shading.blend_model);
         const base::Color albedo = shading.rho_d * skin.albedo;
         const base::Color around =
             albedo.mul(optics::visibility(open * skin.occlusion, albedo)).mul(ambient);
-        const base::Color bounced = (1 - open) * bounced_share * (.5 + .5 * skin.normal.dot(light.direction)) *
-                                    albedo.mul(albedo);
+        const base::Color bounced = optics::bounced_share(open, skin.normal.dot(light.direction)) * albedo.mul(albedo);
         return lit_radiance(skin, shading, light, head::to_cv(scene.position(x, y))) + around + bounced;
     });
     EXPECT_LT(found.largest, of_color.largest);
