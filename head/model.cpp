@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <meshoptimizer.h>
 
 #include "base/input_error.hpp"
 #include "head/gltf_load.hpp"
@@ -95,6 +96,19 @@ void normalise_size(Model& model)
     model.min *= factor;
     model.max *= factor;
     model.notes.push_back(fmt::format("{:.4g} m high: scaled to {} m", height, wanted));
+}
+
+void order_for_drawing(Model& model)
+{
+    for (const Primitive& primitive : model.primitives) {
+        if (model.materials[primitive.material].alpha != AlphaMode::Opaque)
+            continue;
+        std::uint32_t* const first = model.indices.data() + primitive.first_index;
+        meshopt_optimizeVertexCache(first, first, primitive.index_count, model.vertices.size());
+    }
+    model.vertices.resize(meshopt_optimizeVertexFetch(model.vertices.data(), model.indices.data(),
+                                                      model.indices.size(), model.vertices.data(),
+                                                      model.vertices.size(), sizeof(Vertex)));
 }
 
 } // namespace head

@@ -202,6 +202,7 @@ std::shared_ptr<const LoadedHead> load_head(const std::filesystem::path& chosen)
     head->key = base::file_version(file);
     auto model = std::make_shared<head::Model>(head::load_model(file));
     head::normalise_size(*model);
+    head::order_for_drawing(*model);
     head::compute_curvature(*model);
     for (const std::string& note : model->notes)
         head->notes.push_back(fmt::format("{}: {}", file.string(), note));
