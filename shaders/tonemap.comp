@@ -1,4 +1,4 @@
-// Linear light to 8-bit sRGB: exposure, optional soft shoulder for highlights, exact sRGB curve.
+// Linear light to 8-bit sRGB: exposure, optional soft shoulder for highlights, sRGB curve.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,12 +1,15 @@
-// Linear light and its sRGB encoding (IEC 61966-2-1, exact piecewise form). There is no film curve, because
-// skin must keep the colour that the optics gave it: only values above the knee are compressed.
+// Linear light and its sRGB encoding (IEC 61966-2-1). There is no film curve, because skin must keep the colour
+// that the optics gave it: only values above the knee are compressed.
 #ifndef LIB_COLOR_GLSL
 #define LIB_COLOR_GLSL
 
+// For 0..1. Two square roots are cheaper than a power on a software rasteriser: our fit to 1.055 x^(1/2.4) - 0.055 of
+// least largest error, 3.5e-5 or .009 of an 8-bit code.
 vec3 srgb_from_linear(vec3 linear)
 {
-    vec3 power = 1.055 * pow(max(linear, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055;
-    return mix(power, 12.92 * linear, lessThanEqual(linear, vec3(0.0031308)));
+    vec3 root = sqrt(linear), fourth = sqrt(root);
+    vec3 power = root * (1.12268198 - 0.335501831 * fourth) + 0.196135694 * fourth + 0.0813300388 * linear - 0.0646115099;
+    return mix(min(power, 1.0), 12.92 * linear, lessThanEqual(linear, vec3(0.0031308)));
 }
 
 vec3 linear_from_srgb(vec3 encoded)

@@ -160,7 +160,9 @@ TEST_F(ShadingOnGpu, ColorCurvesEqualTheReference)
                 cases[n].formula == shared::FORMULA_SRGB_FROM_LINEAR   ? base::srgb_from_linear(x)
                 : cases[n].formula == shared::FORMULA_LINEAR_FROM_SRGB ? base::linear_from_srgb(x)
                                                                        : shoulder(x);
-            EXPECT_NEAR(values[n][k], reference, 2e-6) << "formula " << cases[n].formula << " of " << x;
+            // The shader's sRGB curve is a fit, off by at most .009 of an 8-bit code.
+            const double bound = cases[n].formula == shared::FORMULA_SRGB_FROM_LINEAR ? 4e-5 : 2e-6;
+            EXPECT_NEAR(values[n][k], reference, bound) << "formula " << cases[n].formula << " of " << x;
             EXPECT_LE(values[n][k], 1);
         }
 }

@@ -1,5 +1,6 @@
 #include "passes/tonemap.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include "base/color.hpp"
@@ -49,6 +50,27 @@ TEST_F(Tonemap, ClippedPictureIsTheExactSrgbCode)
                     << x; // a value halfway between codes may round either way
             EXPECT_EQ(encoded(y, x)[3], 255);
         }
+}
+
+// The shader's curve is a fit; only a value within .01 of halfway between two codes may get the other one.
+TEST_F(Tonemap, EveryHalfFloatUpToOneGetsItsSrgbCode)
+{
+    constexpr int one = 0x3c00; // the bits of 1 as a half float
+    cv::Mat1w bits(1, one + 1);
+    for (int i = 0; i <= one; ++i)
+        bits(0, i) = static_cast<ushort>(i);
+    cv::Mat1f values;
+    cv::Mat(bits.size(), CV_16F, bits.data).convertTo(values, CV_32F);
+    cv::Mat4f linear;
+    cv::merge(std::vector<cv::Mat>{values, values, values, cv::Mat1f(values.size(), 1.f)}, linear);
+    const cv::Mat4b encoded = encode(linear, 0, passes::Highlights::Clip);
+    int others = 0;
+    for (int i = 0; i <= one; ++i) {
+        const double code = 255 * base::srgb_from_linear(double(values(0, i)));
+        EXPECT_NEAR(encoded(0, i)[0], code, .511) << values(0, i);
+        others += encoded(0, i)[0] != std::lround(code);
+    }
+    EXPECT_LT(others, .01 * one);
 }
 
 TEST_F(Tonemap, ExposureIsInStops)
