@@ -50,7 +50,8 @@ cv::Mat3b contact_sheet(const std::string& title, const std::vector<SheetCell>& 
     const int rows = (int(cells.size()) + columns - 1) / columns;
     cv::Mat3b page(header_height + rows * row_height + gap, gap + columns * (cell_width + gap), page_color);
     const double label_text = std::min(11., cell_width / 25.); // narrow cells hold as many letters
-    draw_text(page, title, {gap, header_height - 16}, {.height = 14});
+    const double title_text = std::min(14., 14. * (page.cols - 2 * gap) / std::max(1., text_width(title, 14)));
+    draw_text(page, title, {gap, header_height - 16}, {.height = title_text});
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const int x = gap + int(i) % columns * (cell_width + gap);
         const int y = header_height + int(i) / columns * row_height;
