@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/figure/workbench.hpp"
+#include "base/chart.hpp"
 #include "wound/optics/shading.hpp"
 
 namespace figure_command {
