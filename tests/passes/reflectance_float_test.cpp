@@ -3,7 +3,7 @@
 // back as 32-bit floats.
 #include "tests/shaders/reflectance_case.h"
 
-#include "tests/support/gpu.hpp"
+#include "case_results.hpp"
 #include "tests/support/random_tissue.hpp"
 
 using namespace random_tissue;
@@ -28,24 +28,13 @@ std::vector<optics::Response> evaluate(const std::vector<optics::Stack>& stacks,
                               .n = static_cast<float>(layer.n),
                               .thickness_mm = static_cast<float>(layer.thickness_mm)});
     }
-    constexpr std::uint32_t width = 1024;
-    const auto height = static_cast<std::uint32_t>((cases.size() + width - 1) / width);
-    graph::Graph graph;
-    const graph::ImageId results = graph.image("results", {width, height, VK_FORMAT_R32G32B32A32_SFLOAT});
-    graph::ComputePass& pass = graph.compute("reflectance test", "reflectance_test.comp");
-    pass.buffer<shared::ReflectanceCase>("CaseBlock", cases);
-    pass.buffer<shared::ReflectanceLayer>("LayerBlock", layers);
-    pass.store("results", results);
-    pass.dispatch(width, height);
-    const graph::ReadbackId back = graph.readback("results", results);
-    gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
-    const gpu::FrameResult frame = executor.run(graph);
-    const cv::Mat4f values = frame.mat(back);
     std::vector<optics::Response> responses;
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-        const cv::Vec4f v = values(static_cast<int>(i / width), static_cast<int>(i % width));
+    for (const cv::Vec4f& v :
+         gpu_test::case_results("reflectance_test.comp", cases.size(), [&](graph::ComputePass& pass) {
+             pass.buffer<shared::ReflectanceCase>("CaseBlock", cases);
+             pass.buffer<shared::ReflectanceLayer>("LayerBlock", layers);
+         }))
         responses.push_back({.r = v[0], .r_without_specular = v[1], .t = v[2]});
-    }
     return responses;
 }
 

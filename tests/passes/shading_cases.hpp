@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "passes/shading.hpp"
-#include "tests/support/gpu.hpp"
+#include "case_results.hpp"
 
 namespace shading_cases {
 
@@ -16,23 +16,11 @@ inline constexpr double tiny = 1e-30; // below it floats may flush to 0
 
 inline std::vector<glm::vec3> evaluate(const std::vector<ShadingCase>& cases)
 {
-    constexpr std::uint32_t width = 1024;
-    const std::uint32_t height = static_cast<std::uint32_t>((cases.size() + width - 1) / width);
-    graph::Graph graph;
-    const graph::ImageId results = graph.image("results", {width, height, VK_FORMAT_R32G32B32A32_SFLOAT});
-    graph::ComputePass& pass = graph.compute("shading test", "shading_test.comp");
-    pass.buffer<ShadingCase>("CaseBlock", cases);
-    pass.store("results", results);
-    pass.dispatch(width, height);
-    const graph::ReadbackId back = graph.readback("results", results);
-    gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
-    const gpu::FrameResult frame = executor.run(graph);
-    const cv::Mat4f values = frame.mat(back);
     std::vector<glm::vec3> out;
-    for (std::size_t n = 0; n < cases.size(); ++n) {
-        const cv::Vec4f v = values(static_cast<int>(n / width), static_cast<int>(n % width));
+    for (const cv::Vec4f& v : gpu_test::case_results("shading_test.comp", cases.size(), [&](graph::ComputePass& pass) {
+             pass.buffer<ShadingCase>("CaseBlock", cases);
+         }))
         out.emplace_back(v[0], v[1], v[2]);
-    }
     return out;
 }
 
