@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "passes/part_bindings.hpp"
 #include "passes/shading.hpp"
-#include "shaders/shared/part.h"
-#include "wound/optics/specular.hpp"
+#include "passes/skin_light.hpp"
 
 namespace passes {
 namespace {
@@ -36,37 +36,6 @@ shared::WoundFrame wound_frame(const ForwardWound& wound)
             .epithelium = float(today.border_softness),
             .pore_loss = float(today.scar.pore_loss),
             .sheen = float(today.scar.sheen)};
-}
-
-shared::Part part_params(const HeadPart& part, optics::Shading shading)
-{
-    const head::Gloss gloss = head::gloss_of(part.surface);
-    shading.alpha_x *= gloss.slope;
-    shading.alpha_y *= gloss.slope;
-    return {.albedo_factor = part.albedo_factor,
-            .normal_scale = part.normal_scale,
-            .specular = float(gloss.specular),
-            .slope = float(gloss.slope),
-            .grazing = float(optics::grazing_reflectance(shading)),
-            .translucency = part.surface == head::Surface::Eye ? 0.5f : 1.f,
-            .scattering = part.surface == head::Surface::Skin ? 1.f : 0.f};
-}
-
-/// Binds every wound sampler of the shader; unused ones get the head's white texel.
-void bind_wounds(graph::Draw& draw, const ForwardInput& input, bool wounded, graph::ImageId blank)
-{
-    std::vector<graph::ImageId> color(shared::MAX_WOUNDS, blank), state = color, relief = color, lut = color;
-    for (std::size_t i = 0; wounded && i < input.wounds.size(); ++i) {
-        color[i] = input.wounds[i].texture.color;
-        state[i] = input.wounds[i].texture.state;
-        relief[i] = input.wounds[i].texture.relief;
-        lut[i] = input.wounds[i].lut.reflectance;
-    }
-    draw.constant("WOUNDS", wounded ? std::uint32_t(input.wounds.size()) : 0u);
-    draw.sample("wound_color", color);
-    draw.sample("wound_state", state);
-    draw.sample("wound_relief", relief);
-    draw.sample("reflectance_lut", lut);
 }
 
 /// The pixels in which a wound's images can show; all of them when the camera is inside the wound's reach.
@@ -108,6 +77,17 @@ void confine_wounds(graph::RasterPass& pass, std::span<const ForwardWound> wound
         pass.confine("Wounds_", all);
 }
 
+/// The same of the light that is kept on the skin.
+void confine_skin(graph::RasterPass& pass, const ForwardInput& input, const shared::View& view,
+                  const graph::ImageDesc& target)
+{
+    graph::Region all;
+    for (const ForwardWound& wound : input.kept_wounds)
+        all = bounds(all, pixels_of(wound, view, target.width, target.height));
+    for (const graph::ImageId image : {input.kept->light, input.kept->normal, input.kept->gloss})
+        pass.confine(image, input.kept->wounded, all);
+}
+
 } // namespace
 
 shared::View make_view(const head::Camera& camera, const Head& head, const ViewportTile& tile)
@@ -130,45 +110,31 @@ WoundUniform wound_frames(std::span<const ForwardWound> wounds)
     return uniform;
 }
 
-graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const shared::View& view,
-                           const optics::Shading& shading, const graph::ImageDesc& target)
-{
-    assert(input.wounds.size() <= shared::MAX_WOUNDS);
-    const graph::ImageDesc single{target.width, target.height, VK_FORMAT_R16G16B16A16_SFLOAT, 1};
-    const graph::ImageId radiance = graph.image("radiance", single);
-    graph::RasterPass& pass = graph.raster("forward");
-    if (target.samples > 1)
-        pass.color(graph.image("radiance_msaa", {target.width, target.height, single.format, target.samples}),
-                   {0, 0, 0, 0}, radiance);
-    else
-        pass.color(radiance, {0, 0, 0, 0});
-    pass.depth(graph.image("depth", {target.width, target.height, VK_FORMAT_D32_SFLOAT, target.samples}));
-    if (input.every_frame)
-        pass.every_frame();
+namespace {
 
-    pass.constant("LIGHTS", std::uint32_t(input.lights.size()));
+/// What draw_parts() binds once.
+void prepare_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput& input, const optics::Shading& shading)
+{
     pass.constant("LAMBERT", shading.lambertian());
     pass.constant("TRANSPORT", std::uint32_t(shading.drawn_transport()));
     pass.constant("NORMAL_MAP", shading.normal_map);
-    pass.constant("SHADOWS", input.shadows.casting);
-    pass.constant("AMBIENT", shading.ambient != base::Color(0, 0, 0));
-    pass.constant("WARD_MODEL", std::uint32_t(shading.ward_model));
-    pass.constant("SPECULAR_MODEL", std::uint32_t(shading.specular_model));
+    pass.constant("BOUNCE", shading.bounce);
     pass.constant("TRANSLUCENCY_MODEL", std::uint32_t(shading.translucency_model));
     pass.constant("BLEND_MODEL", std::uint32_t(shading.blend_model));
-    pass.uniform("View_", view);
-    pass.uniform("Shading_", shading_params(shading, input.scattering_length_mm));
-    pass.uniform("Lighting_", lighting(input.lights));
     pass.uniform("Wounds_", wound_frames(input.wounds));
     pass.uniform("Shadows_", input.shadows.lights);
-    const graph::ImageId blank = graph.import("white", *input.head.white);
-    pass.sample("shadow_map", input.shadows.casting != 0 ? input.shadow_depth : blank,
+    pass.sample("shadow_map",
+                input.shadows.casting != 0 ? input.shadow_depth : graph.import("white", *input.head.white),
                 graph::Sampler::NearestClamp);
+}
 
-    for (std::size_t i = 0; i < input.head.parts.size(); ++i) {
-        const HeadPart& part = input.head.parts[i];
+/// Parts of the mesh whose light is computed in every pixel.
+void draw_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput& input, const graph::Mesh& mesh,
+                std::span<const HeadPart> parts, const optics::Shading& shading)
+{
+    for (const HeadPart& part : parts) {
         graph::Draw& draw = pass.draw("forward");
-        draw.mesh = input.head.mesh.get();
+        draw.mesh = &mesh;
         draw.first_index = part.first_index;
         draw.index_count = part.index_count;
         draw.cull_back_faces = !part.double_sided;
@@ -177,18 +143,82 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
         const shared::Part params = part_params(part, shading);
         draw.uniform("Part_", params);
         draw.constant("WARD", shading.glossy() && params.specular > 0);
-        draw.sample("albedo_map", graph.import(fmt::format("albedo {}", i), *part.albedo),
-                    graph::Sampler::LinearRepeatMips);
-        draw.sample("normal_map", graph.import(fmt::format("normal {}", i), *part.normal),
-                    graph::Sampler::LinearRepeatMips);
-        draw.sample("occlusion_map", graph.import(fmt::format("occlusion {}", i), *part.occlusion),
-                    graph::Sampler::LinearRepeatMips);
-        draw.constant("OCCLUSION_MAP", part.occlusion != input.head.white);
-        bind_wounds(draw, input, part.wounded, blank);
+        bind_part(graph, draw, input.head, part, part.wounded, input.wounds);
+    }
+}
+
+/// The skin, with the light that is kept on it.
+void draw_skin(graph::RasterPass& pass, const ForwardInput& input, const Skin& skin, const SkinLight& kept,
+               const optics::Shading& shading)
+{
+    for (const SkinDraw& shown : skin.shown) {
+        graph::Draw& draw = pass.draw("skin");
+        draw.mesh = skin.mesh.get();
+        draw.first_index = shown.first_index;
+        draw.index_count = shown.index_count;
+        const shared::Part params = part_params(
+            *std::ranges::find(input.head.parts, shown.material, &HeadPart::material), shading);
+        draw.uniform("Part_", params);
+        draw.uniform("Code_", kept.code);
+        draw.constant("WARD", shading.glossy() && params.specular > 0);
+        draw.constant("WOUNDED", shown.wounded && !input.wounds.empty());
+        draw.sample("light_map", kept.light);
+        draw.sample("lit_normal", kept.normal);
+        draw.sample("skin_gloss", kept.gloss);
+    }
+}
+
+} // namespace
+
+graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const shared::View& view,
+                           const optics::Shading& shading, const graph::ImageDesc& target)
+{
+    assert(input.wounds.size() <= shared::MAX_WOUNDS);
+    const VkFormat format = input.developed ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R16G16B16A16_SFLOAT;
+    const graph::ImageId radiance =
+        graph.image(input.developed ? "encoded" : "radiance", {target.width, target.height, format, 1});
+    graph::RasterPass& pass = graph.raster("forward");
+    if (target.samples > 1)
+        pass.color(graph.image("radiance_msaa", {target.width, target.height, format, target.samples}), {0, 0, 0, 0},
+                   radiance);
+    else
+        pass.color(radiance, {0, 0, 0, 0});
+    pass.depth(graph.image("depth", {target.width, target.height, VK_FORMAT_D32_SFLOAT, target.samples}));
+    if (input.every_frame)
+        pass.every_frame();
+
+    pass.constant("LIGHTS", std::uint32_t(input.lights.size()));
+    pass.constant("SHADOWS", input.shadows.casting);
+    pass.constant("AMBIENT", shading.ambient != base::Color(0, 0, 0));
+    pass.constant("WARD_MODEL", std::uint32_t(shading.ward_model));
+    pass.constant("SPECULAR_MODEL", std::uint32_t(shading.specular_model));
+    pass.constant("DEVELOPED", input.developed.has_value());
+    pass.uniform("View_", view);
+    pass.uniform("Shading_", shading_params(shading, input.scattering_length_mm));
+    pass.uniform("Lighting_", lighting(input.lights));
+    pass.uniform("Develop_", input.developed.value_or(shared::Develop{}));
+    std::vector<HeadPart> parts = input.head.parts, rest;
+    if (input.kept) {
+        draw_skin(pass, input, *input.skin, *input.kept, shading);
+        std::erase_if(parts, [&](const HeadPart& part) {
+            return std::ranges::find(input.skin->materials, part.material) != input.skin->materials.end();
+        });
+        rest = input.skin->rest;
+        if (!rest.empty())
+            draw_parts(graph, pass, input, *input.skin->rest_mesh, rest, shading);
+    }
+    draw_parts(graph, pass, input, *input.head.mesh, parts, shading);
+    if (!parts.empty() || !rest.empty())
+        prepare_parts(graph, pass, input, shading);
+    if (input.developed) {
+        graph::Draw& backdrop = pass.draw("backdrop");
+        backdrop.index_count = 3;
     }
     // The images of a wound that reaches no triangle are not sampled.
-    if (std::ranges::any_of(input.head.parts, &HeadPart::wounded))
+    if (!rest.empty() || std::ranges::any_of(parts, &HeadPart::wounded))
         confine_wounds(pass, input.wounds, view, target);
+    if (input.kept)
+        confine_skin(pass, input, view, target);
     return radiance;
 }
 

@@ -3,6 +3,7 @@
 // that is off is not compiled.
 #pragma once
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 
 #include "engine/graph/graph.hpp"
@@ -14,6 +15,7 @@
 #include "passes/viewport_tile.hpp"
 #include "passes/wound_texture.hpp"
 #include "shaders/shared/frame.h"
+#include "shaders/shared/skin.h"
 #include "wound/optics/shading.hpp"
 
 namespace passes {
@@ -38,6 +40,9 @@ struct WoundUniform
 };
 WoundUniform wound_frames(std::span<const ForwardWound> wounds);
 
+struct Skin;
+struct SkinLight;
+
 struct ForwardInput
 {
     const Head& head;
@@ -47,10 +52,14 @@ struct ForwardInput
     graph::ImageId shadow_depth;           // used when a light casts a shadow
     bool every_frame = true;               // run the pass even when nothing has changed
     base::Color scattering_length_mm{0, 0, 0}; // of the skin (optics/transport.hpp)
+    const Skin* skin = nullptr;                // the light of `kept` is on it; else light is computed per pixel
+    const SkinLight* kept = nullptr;
+    std::span<const ForwardWound> kept_wounds;  // on the skin, whether a camera sees them or not
+    std::optional<shared::Develop> developed;   // for opaque parts, a backdrop and one sample
 };
 
 /// Adds one raster pass. The result is linear radiance premultiplied by alpha, RGBA16F; alpha is 1 on the
-/// head and 0 beside it. `target.samples` is 1 or 4; with 4 the result is resolved.
+/// head and 0 beside it. With `developed` it is the picture, RGBA8, sRGB-coded, as add_tonemap() makes it. `target.samples` is 1 or 4; with 4 the result is resolved.
 graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const shared::View& view,
                            const optics::Shading& shading, const graph::ImageDesc& target);
 

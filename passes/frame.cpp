@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 
 #include "passes/shadow.hpp"
+#include "passes/skin_light.hpp"
 #include "passes/tonemap.hpp"
 
 namespace passes {
@@ -16,6 +18,12 @@ std::vector<Bounds> boxes_in_picture(const FrameInput& input)
 {
     const shared::View whole = make_view(input.camera, input.head, ViewportTile(input.tile.picture));
     return boxes_in_view(input.head.boxes, whole.clip_from_world);
+}
+
+void add_shadow_depth(graph::Graph& graph, const FrameInput& input, ForwardInput& forward, std::uint32_t size)
+{
+    if (forward.shadows.casting != 0)
+        forward.shadow_depth = add_shadows(graph, forward.shadows, *input.head.caster_mesh, input.head.casters, size);
 }
 
 } // namespace
@@ -44,15 +52,42 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
     std::ranges::copy_if(input.lights, std::back_inserter(lights),
                          [](const optics::Light& light) { return light.strength != base::Color(0, 0, 0); });
     ForwardInput forward{input.head, seen, lights, {}, {}, input.every_frame, input.scattering_length_mm};
-    if (input.shading.shadow && (input.shading.lambertian() || input.shading.glossy()))
-        forward.shadows = fit_shadows(lights, input.head.min, input.head.max, boxes_in_picture(input));
-    if (forward.shadows.casting != 0)
-        forward.shadow_depth =
-            add_shadows(graph, forward.shadows, *input.head.caster_mesh, input.head.casters);
-    images.radiance = add_forward(graph, forward, view, input.shading,
-                                  {width, height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
-    images.picture = add_tonemap(graph, images.radiance, input.exposure_stops, Highlights::SoftShoulder,
-                                 backdrop_of(input.tile));
+    const auto scale = input.skin && placed.size() <= shared::MAX_WOUNDS
+                           ? atlas_scale(*input.skin, input.head.boxes, input.camera, input.tile.picture[1])
+                           : std::nullopt;
+    const bool lit = input.shading.lambertian() || input.shading.glossy();
+    std::optional<SkinLight> kept;
+    if (scale) {
+        if (input.shading.shadow && lit) // camera or not: the shadows stand as the light does
+            forward.shadows = fit_shadows(lights, input.head.min, input.head.max, {}, kept_shadow_size);
+        if (can_keep_light(input.shading, forward.shadows)) {
+            add_shadow_depth(graph, input, forward, kept_shadow_size);
+            ForwardInput all = forward;
+            all.wounds = placed;
+            kept = add_skin_light(graph, all, *input.skin, *scale, input.shading, input.exposure_stops);
+            forward.skin = input.skin;
+            forward.kept = &*kept;
+            forward.kept_wounds = placed;
+        }
+    }
+    if (!kept) {
+        if (input.shading.shadow && lit)
+            forward.shadows = fit_shadows(lights, input.head.min, input.head.max, boxes_in_picture(input), shadow_size);
+        add_shadow_depth(graph, input, forward, shadow_size);
+    }
+    const Backdrop backdrop = backdrop_of(input.tile);
+    if (!input.radiance && input.samples == 1 && !backdrop.transparent &&
+        std::ranges::none_of(input.head.parts, &HeadPart::blend))
+        forward.developed = {std::exp2(input.exposure_stops), glm::vec2(width, height), backdrop.top, backdrop.bottom};
+    const graph::ImageId drawn = add_forward(graph, forward, view, input.shading,
+                                             {width, height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
+    if (forward.developed)
+        images.picture = drawn;
+    else {
+        images.radiance = drawn;
+        images.picture =
+            add_tonemap(graph, images.radiance, input.exposure_stops, Highlights::SoftShoulder, backdrop);
+    }
     images.labels =
         add_labels(graph, input.head, placed, view, label_camera(input.camera, input.tile), input.tile.size);
     return images;

@@ -8,6 +8,7 @@
 #include "passes/head.hpp"
 #include "passes/labels.hpp"
 #include "passes/reflectance_lut.hpp"
+#include "passes/skin.hpp"
 #include "passes/wound_texture.hpp"
 #include "wound/wound.hpp"
 
@@ -36,12 +37,16 @@ struct FrameInput
     float exposure_stops = 0; // each stop doubles the light
     bool every_frame = true;  // draw the head even when nothing has changed, for measurements
     base::Color scattering_length_mm{0, 0, 0}; // of the skin (optics/transport.hpp)
+    /// Of `head` and its wounds: light is kept on it where that can be done, for frames between which it stands. Null:
+    /// light is computed in every pixel.
+    const Skin* skin = nullptr;
+    bool radiance = true; // FrameImages::radiance is needed
 };
 
 struct FrameImages
 {
     graph::ImageId picture;  // RGBA8, sRGB-encoded
-    graph::ImageId radiance; // RGBA16F, linear, premultiplied, without exposure and backdrop
+    graph::ImageId radiance; // RGBA16F, linear, premultiplied, without exposure and backdrop; of FrameInput::radiance
     std::vector<WoundTexture> wounds;
     LabelImages labels; // drawn only if they are read back
 };

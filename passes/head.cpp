@@ -8,17 +8,17 @@
 namespace passes {
 namespace {
 
-/// Splits a part into the triangles that an anchor's patch reaches and the rest; appends both to `indices`
+/// Splits a part into the triangles on which a wound can show and the rest; appends both to `indices`
 /// and to the parts of `head`, and the first to its wounded triangles.
-void append_split(const head::Model& model, std::span<const head::Anchor> anchors, HeadPart part,
+void append_split(const head::Model& model, std::span<const WoundReach> wounds, HeadPart part,
                   std::vector<std::uint32_t>& indices, Head& head)
 {
     std::vector<std::uint32_t> split[2];
     for (std::uint32_t i = part.first_index; i + 2 < part.first_index + part.index_count; i += 3) {
         const auto triangle = head::corners_of(model, i);
         bool wounded = false;
-        for (std::size_t k = 0; part.surface == head::Surface::Skin && k < anchors.size(); ++k)
-            if (head::receives(anchors[k], triangle)) {
+        for (std::size_t k = 0; part.surface == head::Surface::Skin && k < wounds.size(); ++k)
+            if (wounds[k].holds(model, i)) {
                 wounded = true;
                 head.wounded[k].push_back({triangle, part.double_sided});
             }
@@ -36,6 +36,22 @@ void append_split(const head::Model& model, std::span<const head::Anchor> anchor
 }
 
 } // namespace
+
+bool WoundReach::holds(const head::Model& model, std::size_t first) const
+{
+    glm::dvec3 least(1e30), most(-1e30);
+    double facing = 0; // the projection fades before the surface turns away
+    for (std::size_t k = first; k < first + 3; ++k) {
+        const head::Vertex& vertex = model.vertices[model.indices[k]];
+        const glm::dvec3 place = head::in_frame(anchor, glm::dvec3(vertex.position));
+        least = glm::min(least, place);
+        most = glm::max(most, place);
+        facing = std::max(facing, glm::dot(glm::dvec3(vertex.normal), anchor.normal));
+    }
+    const glm::dvec2 least_on(least), most_on(most);
+    return facing > 0 && glm::all(glm::lessThanEqual(least_on, high)) && glm::all(glm::greaterThanEqual(most_on, low)) &&
+           least.z <= head::Anchor::reach && most.z >= -head::Anchor::reach;
+}
 
 gpu::MeshBuffer upload_mesh(const gpu::Device& device, std::span<const head::Vertex> vertices,
                             std::span<const std::uint32_t> indices, const std::string& name)
@@ -74,6 +90,7 @@ Head upload_head(const gpu::Device& device, const head::Model& model)
     for (std::uint32_t i = 0; i < model.materials.size(); ++i) {
         const head::Material& material = model.materials[i];
         HeadPart part;
+        part.material = i;
         part.surface = head::surface_of(model, i, skin);
         part.blend = material.alpha != head::AlphaMode::Opaque;
         part.double_sided = material.double_sided;
@@ -110,16 +127,16 @@ Head upload_head(const gpu::Device& device, const head::Model& model)
 }
 
 Head with_wounds(const gpu::Device& device, const Head& head, const head::Model& model,
-                 std::span<const head::Anchor> anchors)
+                 std::span<const WoundReach> wounds)
 {
-    if (anchors.empty())
+    if (wounds.empty())
         return head;
     Head wounded = head;
     wounded.parts.clear();
-    wounded.wounded.resize(anchors.size());
+    wounded.wounded.resize(wounds.size());
     std::vector<std::uint32_t> indices;
     for (const HeadPart& part : head.parts)
-        append_split(model, anchors, part, indices, wounded);
+        append_split(model, wounds, part, indices, wounded);
     wounded.mesh = std::make_shared<const gpu::MeshBuffer>(device, *head.mesh, indices, "head with wounds");
     return wounded;
 }

@@ -14,12 +14,22 @@
 
 namespace passes {
 
+/// Where a wound's images can show.
+struct WoundReach
+{
+    head::Anchor anchor;
+    glm::dvec2 low{-1}, high{1}; // of the patch: x along `right`, y along `down`, -1..1 all of it
+    /// May keep too much. first: of the triangle's indices.
+    bool holds(const head::Model& model, std::size_t first) const;
+    bool operator==(const WoundReach&) const = default;
+};
+
 struct HeadPart
 {
     head::Surface surface = head::Surface::Skin;
-    std::uint32_t first_index = 0, index_count = 0;
+    std::uint32_t first_index = 0, index_count = 0, material = 0; // material: of the model
     bool blend = false, double_sided = false;
-    bool wounded = false; // skin that a wound's patch reaches
+    bool wounded = false; // skin on which a wound can show
     const gpu::Texture *albedo = nullptr, *normal = nullptr,
                        *occlusion = nullptr; // owned by Head::textures; never null after upload_head()
     glm::vec4 albedo_factor{1.0f};
@@ -36,7 +46,7 @@ struct Head
     const gpu::Texture* white = nullptr;        // one texel
     glm::vec3 min{0.0f}, max{0.0f};             // metres
     std::vector<Bounds> boxes;                  // boxes_around() the model
-    std::vector<std::vector<Triangle>> wounded; // by anchor: the skin that its patch reaches
+    std::vector<std::vector<Triangle>> wounded; // by wound: the skin on which it can show
 };
 
 gpu::MeshBuffer upload_mesh(const gpu::Device& device, std::span<const head::Vertex> vertices,
@@ -45,9 +55,9 @@ gpu::MeshBuffer upload_mesh(const gpu::Device& device, std::span<const head::Ver
 /// Uploads the model; each of its primitives becomes one part, not wounded.
 Head upload_head(const gpu::Device& device, const head::Model& model);
 
-/// Returns a copy of `head` with separate parts for the skin triangles that an anchor's patch reaches. It
+/// Returns a copy of `head` with separate parts for the skin triangles on which a wound can show. It
 /// shares vertices, textures and shadow casters with `head`, which upload_head() must have made from `model`.
 Head with_wounds(const gpu::Device& device, const Head& head, const head::Model& model,
-                 std::span<const head::Anchor> anchors);
+                 std::span<const WoundReach> wounds);
 
 } // namespace passes

@@ -73,7 +73,7 @@ shared::Shadow in_tile(const shared::Shadow& shadow, int tile, int count)
 } // namespace
 
 std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::vec3& box_min,
-                                         const glm::vec3& box_max, std::span<const Bounds> seen)
+                                         const glm::vec3& box_max, std::span<const Bounds> seen, std::uint32_t size)
 {
     const glm::dvec3 center = glm::dvec3(box_min + box_max) * 0.5;
     const double radius = glm::length(glm::dvec3(box_max) - center);
@@ -109,16 +109,16 @@ std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::
     const glm::dmat4 clip_from_world = projection * view;
     return shared::Shadow{.clip_from_world = glm::mat4(clip_from_world),
                           .clip_plane_from_world = glm::mat4(glm::transpose(glm::inverse(clip_from_world))),
-                          .texel = static_cast<float>(window.width / shadow_size),
-                          .step = glm::vec2(2.f / shadow_size)};
+                          .texel = static_cast<float>(window.width / size),
+                          .step = glm::vec2(2.f / float(size))};
 }
 
 Shadows fit_shadows(std::span<const optics::Light> lights, const glm::vec3& box_min, const glm::vec3& box_max,
-                    std::span<const Bounds> seen)
+                    std::span<const Bounds> seen, std::uint32_t size)
 {
     Shadows shadows{}; // zero where no light is: what the pass remembers must not change
     for (std::size_t i = 0; i < lights.size(); ++i)
-        if (const auto shadow = fit_shadow(lights[i], box_min, box_max, seen)) {
+        if (const auto shadow = fit_shadow(lights[i], box_min, box_max, seen, size)) {
             shadows.lights[i] = *shadow;
             shadows.casting |= 1u << i;
         }
@@ -130,11 +130,11 @@ Shadows fit_shadows(std::span<const optics::Light> lights, const glm::vec3& box_
 }
 
 graph::ImageId add_shadows(graph::Graph& graph, const Shadows& shadows, const graph::Mesh& mesh,
-                           std::span<const head::Primitive> casters)
+                           std::span<const head::Primitive> casters, std::uint32_t size)
 {
     const auto count = std::uint32_t(std::popcount(shadows.casting));
     const graph::ImageId depth =
-        graph.image("shadow depth", {count * shadow_size, shadow_size, VK_FORMAT_D32_SFLOAT});
+        graph.image("shadow depth", {count * size, size, VK_FORMAT_D32_SFLOAT});
     graph::RasterPass& pass = graph.raster("shadow");
     pass.depth(depth);
     for (std::size_t light = 0; light < std::size(shadows.lights); ++light) {

@@ -15,7 +15,8 @@
 
 namespace passes {
 
-inline constexpr std::uint32_t shadow_size = 1024; // texels, of a light
+/// Texels, of a light: narrowed to what a camera sees, and of all the head.
+inline constexpr std::uint32_t shadow_size = 1024, kept_shadow_size = 2048;
 
 /// The light's frustum (parallel for a directional light) that tightly encloses the box, narrowed to what the
 /// camera can see (`seen`, boxes in it; none: all of it). It keeps all casters between light and `seen`. Its
@@ -23,7 +24,8 @@ inline constexpr std::uint32_t shadow_size = 1024; // texels, of a light
 /// same, and then shadows do not crawl. None when the light is inside the box or too near for one shadow map
 /// to cover it: such a light casts no shadow.
 std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::vec3& box_min,
-                                         const glm::vec3& box_max, std::span<const Bounds> seen = {});
+                                         const glm::vec3& box_max, std::span<const Bounds> seen = {},
+                                         std::uint32_t size = shadow_size);
 
 struct Shadows
 {
@@ -32,11 +34,11 @@ struct Shadows
     std::uint32_t casting = 0;        // bit i: light i casts a shadow
 };
 Shadows fit_shadows(std::span<const optics::Light> lights, const glm::vec3& box_min, const glm::vec3& box_max,
-                    std::span<const Bounds> seen);
+                    std::span<const Bounds> seen, std::uint32_t size = shadow_size);
 
 /// Depth of the given primitives, D32, seen by each light that casts a shadow; there must be one. Omit
 /// primitives that transmit light, such as lashes.
 graph::ImageId add_shadows(graph::Graph& graph, const Shadows& shadows, const graph::Mesh& mesh,
-                           std::span<const head::Primitive> casters);
+                           std::span<const head::Primitive> casters, std::uint32_t size = shadow_size);
 
 } // namespace passes

@@ -19,11 +19,20 @@ double largest(const base::Color& color)
     return std::max({color[0], color[1], color[2]});
 }
 
+/// Without what the scene leaves out.
+Levels drawn(Levels levels, const optics::Shading& shading)
+{
+    if (!shading.bounce)
+        levels.bounces = 0;
+    return levels;
+}
+
 } // namespace
 
 PathTracer::PathTracer(const scene::LoadedScene& scene, const Surfaces& surfaces, const DayWounds& wounds,
                        const Levels& levels)
-    : scene_(scene), shading_(scene.scene.shading), surfaces_(surfaces), wounds_(wounds), levels_(levels),
+    : scene_(scene), shading_(scene.scene.shading), surfaces_(surfaces), wounds_(wounds),
+      levels_(drawn(levels, shading_)),
       ambient_(levels.ambient ? shading_.ambient : black)
 {
 }

@@ -223,6 +223,9 @@ const std::vector<Field<optics::Shading>>& shading_fields()
                 "normal_map", [](auto& s) -> auto& { return s.normal_map; }, "pores, by the normal map"),
             boolean<Shading>(
                 "shadow", [](auto& s) -> auto& { return s.shadow; }, "the lights' cast shadows"),
+            boolean<Shading>(
+                "bounce", [](auto& s) -> auto& { return s.bounce; },
+                "light that reaches a point by way of the skin around it"),
             choice<Shading>(
                 "transport", optics::transport_names, [](auto& s) -> auto& { return s.transport; },
                 "how light leaves the skin: by the translucent term of eq. (6) too, which also lights what no "

@@ -23,6 +23,17 @@ bool same_wounds(const scene::LoadedScene& a, const scene::LoadedScene& b)
     });
 }
 
+passes::WoundReach reach_of(const scene::PlacedWound& wound)
+{
+    passes::WoundReach reach{wound.anchor};
+    if (const cv::Rect& region = wound.region; !region.empty()) {
+        const cv::Size size = wound.prepared().patch.color.size();
+        reach.low = {2. * region.x / size.width - 1, 2. * region.y / size.height - 1};
+        reach.high = {2. * region.br().x / size.width - 1, 2. * region.br().y / size.height - 1};
+    }
+    return reach;
+}
+
 } // namespace
 
 Stage::Preparation Stage::prepare(const scene::Scene& scene)
@@ -112,11 +123,12 @@ Stage::Set Stage::make(const scene::Scene& scene) const
     set.bare = set_.bare && set.loaded.head == set_.loaded.head
                    ? set_.bare
                    : std::make_shared<const passes::Head>(passes::upload_head(*device_, model));
-    const std::vector<head::Anchor> anchors = set.loaded.anchors();
+    for (const scene::PlacedWound& wound : set.loaded.wounds)
+        set.reaches.push_back(reach_of(wound));
     set.wounded =
-        set.bare == set_.bare && set_.wounded && anchors == set_.loaded.anchors()
+        set.bare == set_.bare && set_.wounded && set.reaches == set_.reaches
             ? set_.wounded
-            : std::make_shared<const passes::Head>(passes::with_wounds(*device_, *set.bare, model, anchors));
+            : std::make_shared<const passes::Head>(passes::with_wounds(*device_, *set.bare, model, set.reaches));
     for (const scene::PlacedWound& wound : set.loaded.wounds)
         set.wounds.push_back({maps_of(wound), lut_of(set, wound)});
     return set;
@@ -176,6 +188,19 @@ void Stage::set_tissue(const optics::HealingTissue& tissue)
         set_.wounds[i].tissue = make_lut(set_, set_.loaded.wounds[i]);
 }
 
+const passes::Skin* Stage::skin() const
+{
+    const head::Model& model = *set_.loaded.head->model;
+    if (spread_.bare != set_.bare)
+        spread_ = {set_.bare, nullptr, head::unwrap(model, passes::kept_materials(model)), nullptr};
+    if (spread_.wounded != set_.wounded) {
+        const head::Atlas atlas = head::with_wounds(model, spread_.base, set_.loaded.anchors());
+        spread_.skin = passes::upload_skin(*device_, *set_.bare, model, atlas, set_.reaches);
+        spread_.wounded = set_.wounded;
+    }
+    return spread_.skin.get();
+}
+
 base::Color Stage::scattering_length_mm(const optics::Shading& shading) const
 {
     if (shading.drawn_transport() != optics::Transport::Preintegrated)
@@ -218,6 +243,9 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
         graph.keep(wound.maps.shape);
     }
     graph.keep(set_.wounded);
+    const passes::Skin* kept = request.light_stands && !dragging_ ? skin() : nullptr;
+    if (kept)
+        graph.keep(spread_.skin);
     frame.images = passes::add_frame(graph, {.head = *set_.wounded,
                                              .wounds = wounds,
                                              .lights = set_.loaded.lights,
@@ -228,7 +256,9 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
                                              .samples = scene.samples,
                                              .exposure_stops = float(scene.exposure_stops),
                                              .every_frame = request.every_frame,
-                                             .scattering_length_mm = scattering_length_mm(shading)});
+                                             .scattering_length_mm = scattering_length_mm(shading),
+                                             .skin = kept,
+                                             .radiance = request.radiance});
     return frame;
 }
 

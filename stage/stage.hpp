@@ -33,6 +33,10 @@ struct FrameRequest
     /// Draw the head even when nothing has changed, for measurements. A window sets it to false, so that no
     /// pass runs when nothing has changed (gpu::Executor::up_to_date).
     bool every_frame = true;
+    /// More frames with the same light follow: it is kept on the skin, which costs this frame more and those less.
+    /// Not while something is dragged.
+    bool light_stands = false;
+    bool radiance = true; // FrameImages::radiance is needed
 };
 
 struct Frame
@@ -109,6 +113,7 @@ class Stage
         scene::LoadedScene loaded;
         std::shared_ptr<const passes::Head> bare, wounded; // the head without and with wounded parts
         std::vector<DeviceWound> wounds;                   // one per loaded.wounds
+        std::vector<passes::WoundReach> reaches;           // the same
     };
     /// Uploaded maps of a photograph's wounds, kept while the photograph is alive.
     struct UploadedMaps
@@ -127,6 +132,8 @@ class Stage
     passes::LutTissue make_lut(const Set& set, const scene::PlacedWound& wound) const;
     passes::LutTissue lut_of(const Set& set, const scene::PlacedWound& wound) const;
     void accept(Set set);
+    /// The skin with the wounds of set_; null for a head without a usable one.
+    const passes::Skin* skin() const;
     /// Of the tissue; 0 for a shading whose transport does not use it.
     base::Color scattering_length_mm(const optics::Shading& shading) const;
 
@@ -136,6 +143,14 @@ class Stage
     std::uint64_t seen_news_ = 0;
     bool dragging_ = false;
     Set set_, whole_;                         // whole_: the last complete set
+    /// Of a head and its wounds, once a frame has asked for it.
+    struct SpreadHead
+    {
+        std::shared_ptr<const passes::Head> bare, wounded;
+        head::BaseAtlas base;
+        std::shared_ptr<const passes::Skin> skin;
+    };
+    mutable SpreadHead spread_;
     mutable std::optional<base::Color> scattering_length_mm_; // of set_'s tissue, once a frame has asked for it
     mutable std::deque<KnownDay> known_days_; // of set_, most recently requested first
 };

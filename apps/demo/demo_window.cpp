@@ -213,7 +213,7 @@ DemoWindow::Drawn DemoWindow::draw_picture(double scale)
                                             std::max(16u, std::uint32_t(std::lround(full[1] * scale)))};
     graph::Graph graph;
     const double day = state_.playback.day;
-    const stage::FrameRequest now{.day = day, .tile = size, .every_frame = false};
+    const stage::FrameRequest now{.day = day, .tile = size, .every_frame = false, .light_stands = true, .radiance = false};
     stage::FrameRequest other = now;
     other.day = compared_day(day);
     const graph::ImageId picture =

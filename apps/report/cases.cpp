@@ -52,7 +52,7 @@ std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage, const std::ve
     constexpr double arc_deg = 40, tint = 0.2;
     const auto declare = [&stage](graph::Graph& graph, double day, const head::Camera& camera) {
         const stage::FrameRequest request{
-            .day = day, .tile = stage.scene().size, .camera = camera, .every_frame = false};
+            .day = day, .tile = stage.scene().size, .camera = camera, .every_frame = false, .light_stands = true, .radiance = false};
         const graph::ImageId picture = stage.declare(graph, request).images.picture;
         graph.present(picture);
         return picture;

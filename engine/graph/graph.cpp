@@ -78,6 +78,10 @@ ImageId Graph::image(std::string_view name, const ImageDesc& desc)
 
 ImageId Graph::import(std::string_view name, const ExternalImage& external)
 {
+    for (std::uint32_t i = 0; i < images.size(); ++i)
+        if (images[i].external && images[i].external->content == external.content &&
+            images[i].name == name_prefix_ + std::string(name))
+            return {i};
     images.push_back({name_prefix_ + std::string(name), external.desc, external});
     return {static_cast<std::uint32_t>(images.size() - 1)};
 }

@@ -59,6 +59,11 @@ class Reach
     void confine(std::string_view block, const Region& region) { confined.push_back({std::string(block), {}, region}); }
     /// The same of a sampled image's contents.
     void confine(ImageId image, const Region& region) { confined.push_back({{}, image, region}); }
+    /// The same of a change that leaves all of the image but `source` as it was.
+    void confine(ImageId image, const Region& source, const Region& region)
+    {
+        confined.push_back({{}, image, region, source});
+    }
     /// Every texel depends on the texel of `image` at the same place, and on no other of it.
     void in_place(ImageId image) { confined.push_back({{}, image, std::nullopt}); }
 
@@ -67,6 +72,7 @@ class Reach
         std::string block; // empty: `image`
         ImageId image;
         std::optional<Region> region; // none: in place
+        std::optional<Region> source; // none: wherever the image changes
     };
     std::vector<Confined> confined;
 };
@@ -132,7 +138,8 @@ class Graph
     /// An image the graph owns. Its contents are kept between frames
     /// under its name, so that its writer can be skipped.
     ImageId image(std::string_view name, const ImageDesc& desc);
-    /// An image made outside the graph. It must outlive the frame.
+    /// An image made outside the graph. It must outlive the frame. Again with the same name and
+    /// contents: the same image.
     ImageId import(std::string_view name, const ExternalImage& external);
     /// Imports an object that has external(), such as gpu::Texture.
     template <typename Texture>

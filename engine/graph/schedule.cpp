@@ -213,6 +213,7 @@ class Scheduler
                 if (input.image.valid() ? part.what == "input " + image_name(input.image)
                                         : part.what == "uniform " + input.block || part.what == "buffer " + input.block) {
                     part.region = input.region;
+                    part.source = input.source;
                     part.in_place = !input.region;
                 }
     }
@@ -285,7 +286,14 @@ class Scheduler
                 continue;
             if (key[i].what != last[i].what)
                 return std::nullopt;
-            const auto touched = key[i].in_place ? refreshed_since(position, key[i], last[i].hash) : key[i].region;
+            auto touched = key[i].region;
+            if (key[i].in_place || key[i].source) {
+                const auto refreshed = refreshed_since(position, key[i], last[i].hash);
+                if (!refreshed || (key[i].source && !holds(*key[i].source, *refreshed)))
+                    return std::nullopt;
+                if (key[i].in_place)
+                    touched = refreshed;
+            }
             if (!touched || (!key[i].in_place && !last[i].region))
                 return std::nullopt;
             changed = bounds(changed, key[i].in_place ? *touched : bounds(*touched, *last[i].region));

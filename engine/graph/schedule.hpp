@@ -20,6 +20,7 @@ struct KeyPart
     std::uint64_t hash = 0;
     /// What a change touches (Reach); none: everything.
     std::optional<Region> region;
+    std::optional<Region> source;
     bool in_place = false;
     bool operator==(const KeyPart& other) const { return what == other.what && hash == other.hash; }
 };

@@ -48,6 +48,7 @@ struct Shading
 {
     bool lambert = true, translucency = true, ward = true;
     bool normal_map = true, shadow = true;
+    bool bounce = true; // light that comes by way of the skin around a hollow
     Transport transport = Transport::Published;
     SpecularModel specular_model = SpecularModel::Ward;
     WardModel ward_model = WardModel::Bounded; // the form of every lobe

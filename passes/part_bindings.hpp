@@ -1,0 +1,17 @@
+// What every pass that computes a point of the head (shaders/lib/skin_inputs.glsl) binds.
+#pragma once
+#include <span>
+
+#include "engine/graph/graph.hpp"
+#include "passes/forward.hpp"
+#include "shaders/shared/part.h"
+
+namespace passes {
+
+shared::Part part_params(const HeadPart& part, optics::Shading shading);
+
+/// Albedo, normal and occlusion of the part and, if `wounded`, the images of `wounds`.
+void bind_part(graph::Graph& graph, graph::Draw& draw, const Head& head, const HeadPart& part, bool wounded,
+               std::span<const ForwardWound> wounds);
+
+} // namespace passes

@@ -1,0 +1,286 @@
+#include "passes/skin.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <opencv2/imgproc.hpp>
+#include <unordered_map>
+
+namespace passes {
+namespace {
+
+constexpr double most_texels = 16e6;   // of each map
+constexpr double pixels_per_texel = 2; // at most, where the camera is nearest; a wound's texels are half as wide
+constexpr float longest_miter = 2;   // of a skirt, in its widths
+
+struct SkinVertex
+{
+    head::Vertex vertex;
+    glm::vec2 place;         // share of the atlas' size
+    glm::vec2 outward{0.0f}; // of a skirt
+};
+
+constexpr std::array<graph::VertexAttribute, 8> attributes{{
+    {"position", 3, offsetof(SkinVertex, vertex.position)},
+    {"normal", 3, offsetof(SkinVertex, vertex.normal)},
+    {"tangent", 4, offsetof(SkinVertex, vertex.tangent)},
+    {"uv", 2, offsetof(SkinVertex, vertex.uv)},
+    {"occlusion", 1, offsetof(SkinVertex, vertex.occlusion)},
+    {"curvature", 2, offsetof(SkinVertex, vertex.curvature)},
+    {"place", 2, offsetof(SkinVertex, place)},
+    {"outward", 2, offsetof(SkinVertex, outward)},
+}};
+constexpr graph::VertexLayout layout{sizeof(SkinVertex), attributes};
+
+/// A material's occlusion map, small enough that a vertex can take what a texel says.
+cv::Mat1b small_occlusion(const head::Material& material)
+{
+    cv::Mat1b small;
+    if (!material.occlusion.empty())
+        cv::resize(material.occlusion, small,
+                   {std::min(material.occlusion.cols, 256), std::min(material.occlusion.rows, 256)}, 0, 0, cv::INTER_AREA);
+    return small;
+}
+
+class Spreading
+{
+  public:
+    Spreading(const head::Model& model, const head::Atlas& atlas, std::span<const WoundReach> wounds)
+        : model_(model), size_(atlas.size), wounds_(wounds)
+    {
+        for (const head::Material& material : model.materials)
+            occlusion_.push_back(small_occlusion(material));
+        material_.resize(model.indices.size() / 3);
+        for (const head::Primitive& primitive : model.primitives)
+            std::fill_n(material_.begin() + primitive.first_index / 3, primitive.index_count / 3, primitive.material);
+    }
+
+    /// A tile of a material: without wounds.
+    void add_base(const head::AtlasTile& tile)
+    {
+        std::vector<head::AtlasTriangle> whole;
+        for (const head::AtlasTriangle& triangle : tile.home)
+            if (wounded(triangle.first)) {
+                Group& group = group_of(rest, material_[triangle.first / 3]);
+                group.indices.insert(group.indices.end(), &model_.indices[triangle.first], &model_.indices[triangle.first] + 3);
+            } else
+                whole.push_back(triangle);
+        const std::vector<Group> home = groups(tile.home);
+        append(groups(tile.margin), tile, skin.spread);
+        append(skirts(home), tile, skin.spread);
+        append(home, tile, skin.spread);
+        append(groups(whole), tile, skin.shown);
+    }
+
+    /// A tile around a wound.
+    void add_wound(const head::AtlasTile& tile)
+    {
+        if (tile.home.empty())
+            return;
+        std::vector<head::AtlasTriangle> touched, whole;
+        for (const head::AtlasTriangle& triangle : tile.home)
+            (wounded(triangle.first) ? touched : whole).push_back(triangle);
+        std::vector<Group> home = groups(touched);
+        for (Group& group : home)
+            group.wounded = true;
+        std::ranges::move(groups(whole), std::back_inserter(home));
+        std::vector<Group> margin = groups(tile.margin);
+        for (Group& group : margin)
+            group.wounded = true;
+        append(margin, tile, skin.spread);
+        append(skirts(home), tile, skin.spread); // over the margin, which beyond an outline is skin far behind
+        append(home, tile, skin.spread);
+        append(home, tile, skin.shown);
+    }
+
+    struct Group
+    {
+        std::uint32_t material = 0;
+        bool wounded = false;
+        std::vector<std::uint32_t> indices;
+    };
+
+    Skin skin;
+    std::vector<SkinVertex> vertices;
+    std::vector<std::uint32_t> indices;
+    std::vector<Group> rest; // wounded triangles without a place in a wound's tile; of the model's vertices
+
+  private:
+    bool wounded(std::uint32_t first) const
+    {
+        return std::ranges::any_of(wounds_, [&](const WoundReach& wound) { return wound.holds(model_, first); });
+    }
+
+    static Group& group_of(std::vector<Group>& groups, std::uint32_t material)
+    {
+        const auto known = std::ranges::find(groups, material, &Group::material);
+        return known != groups.end() ? *known : groups.emplace_back(Group{material, false, {}});
+    }
+
+    /// By material.
+    std::vector<Group> groups(std::span<const head::AtlasTriangle> triangles)
+    {
+        std::vector<Group> result;
+        for (const head::AtlasTriangle& triangle : triangles) {
+            Group& group = group_of(result, material_[triangle.first / 3]);
+            for (std::uint32_t k = 0; k < 3; ++k)
+                group.indices.push_back(vertex(model_.indices[triangle.first + k], triangle.at[k], group.material));
+        }
+        return result;
+    }
+
+    std::vector<Group> skirts(std::span<const Group> groups)
+    {
+        std::vector<Group> result(groups.begin(), groups.end());
+        for (Group& group : result)
+            group.indices = skirt(group.indices);
+        return result;
+    }
+
+    std::uint32_t vertex(std::uint32_t index, const glm::vec2& at, std::uint32_t material)
+    {
+        const std::uint64_t place = std::uint64_t{std::bit_cast<std::uint32_t>(at.x)} << 32 | std::bit_cast<std::uint32_t>(at.y);
+        auto& known = known_[index];
+        for (const auto& [where, vertex] : known)
+            if (where == place)
+                return vertex;
+        SkinVertex made{model_.vertices[index], at / glm::vec2(size_)};
+        if (const cv::Mat1b& map = occlusion_[material]; !map.empty()) {
+            const glm::vec2 uv = made.vertex.uv - glm::floor(made.vertex.uv);
+            made.vertex.occlusion = float(map(std::min(int(uv.y * float(map.rows)), map.rows - 1),
+                                              std::min(int(uv.x * float(map.cols)), map.cols - 1))) /
+                                    255;
+        }
+        vertices.push_back(made);
+        known.emplace_back(place, std::uint32_t(vertices.size() - 1));
+        return known.back().second;
+    }
+
+    /// A strip along the border of charts, with the attributes of the border: filters that reach beyond it find the same
+    /// skin there. Returns its indices.
+    std::vector<std::uint32_t> skirt(std::span<const std::uint32_t> triangles)
+    {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<std::uint32_t, 4>> edges; // a, b, opposite, count
+        for (std::size_t i = 0; i + 2 < triangles.size(); i += 3)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t a = triangles[i + k], b = triangles[i + (k + 1) % 3];
+                auto& edge = edges[{std::min(a, b), std::max(a, b)}];
+                edge = {a, b, triangles[i + (k + 2) % 3], edge[3] + 1};
+            }
+        const auto place = [&](std::uint32_t vertex) { return vertices[vertex].place * glm::vec2(size_); };
+        std::map<std::uint32_t, glm::vec2> outward;
+        std::vector<std::array<std::uint32_t, 2>> border;
+        for (const auto& [ends, edge] : edges) {
+            const glm::vec2 along = place(edge[1]) - place(edge[0]), inward = place(edge[2]) - place(edge[0]);
+            glm::vec2 across(-along.y, along.x);
+            const float length = glm::length(across);
+            if (edge[3] != 1 || !(length > 1e-6f))
+                continue;
+            across /= glm::dot(across, inward) > 0 ? -length : length;
+            outward[edge[0]] += across;
+            outward[edge[1]] += across;
+            border.push_back({edge[0], edge[1]});
+        }
+        std::map<std::uint32_t, std::uint32_t> outer;
+        for (const auto& [vertex, sum] : outward) {
+            const float square = std::max(glm::dot(sum, sum), 1e-6f);
+            SkinVertex made = vertices[vertex];
+            made.outward = sum * std::min(2 / square, longest_miter / std::sqrt(square));
+            outer[vertex] = std::uint32_t(vertices.size());
+            vertices.push_back(made);
+        }
+        std::vector<std::uint32_t> result;
+        for (const auto [a, b] : border)
+            result.insert(result.end(), {a, b, outer[b], a, outer[b], outer[a]});
+        return result;
+    }
+
+    void append(std::span<const Group> groups, const head::AtlasTile& tile, std::vector<SkinDraw>& draws)
+    {
+        for (const Group& group : groups) {
+            if (group.indices.empty())
+                continue;
+            draws.push_back({std::uint32_t(indices.size()), std::uint32_t(group.indices.size()), group.material,
+                             group.wounded, tile.corner, tile.size});
+            indices.insert(indices.end(), group.indices.begin(), group.indices.end());
+        }
+    }
+
+    const head::Model& model_;
+    glm::uvec2 size_;
+    std::span<const WoundReach> wounds_;
+    std::vector<cv::Mat1b> occlusion_;     // by material
+    std::vector<std::uint32_t> material_;  // by triangle of the model
+    std::unordered_map<std::uint32_t, std::vector<std::pair<std::uint64_t, std::uint32_t>>> known_; // by vertex of the model
+};
+
+} // namespace
+
+std::vector<std::uint32_t> kept_materials(const head::Model& model)
+{
+    std::vector<std::uint32_t> materials = head::atlas_materials(model);
+    std::erase_if(materials, [&](std::uint32_t material) { return model.materials[material].double_sided; });
+    return materials;
+}
+
+std::shared_ptr<const Skin> upload_skin(const gpu::Device& device, const Head& head, const head::Model& model,
+                                        const head::Atlas& atlas, std::span<const WoundReach> wounds)
+{
+    Spreading spreading(model, atlas, wounds);
+    for (const head::AtlasTile& tile : atlas.materials)
+        spreading.add_base(tile);
+    for (const head::AtlasTile& tile : atlas.wounds)
+        spreading.add_wound(tile);
+    if (spreading.indices.empty())
+        return nullptr;
+    Skin& skin = spreading.skin;
+    skin.mesh = std::make_shared<const gpu::MeshBuffer>(device, layout, std::as_bytes(std::span(spreading.vertices)),
+                                                        spreading.indices, "skin");
+    skin.materials = kept_materials(model);
+    skin.size = atlas.size;
+    skin.texel_m = head::texel_m(atlas, 1);
+    glm::uvec2 low = atlas.size, high(0);
+    for (const head::AtlasTile& tile : atlas.wounds)
+        if (tile.size.x > 0) {
+            low = glm::min(low, tile.corner);
+            high = glm::max(high, tile.corner + tile.size);
+        }
+    skin.wounded_corner = glm::min(low, high);
+    skin.wounded_size = high - skin.wounded_corner;
+    std::vector<std::uint32_t> rest;
+    for (const Spreading::Group& group : spreading.rest) {
+        HeadPart part = *std::ranges::find(head.parts, group.material, &HeadPart::material);
+        part.first_index = std::uint32_t(rest.size());
+        part.index_count = std::uint32_t(group.indices.size());
+        part.wounded = true;
+        skin.rest.push_back(part);
+        rest.insert(rest.end(), group.indices.begin(), group.indices.end());
+    }
+    if (!rest.empty())
+        skin.rest_mesh = std::make_shared<const gpu::MeshBuffer>(device, *head.mesh, rest, "rest of the skin");
+    return std::make_shared<const Skin>(std::move(skin));
+}
+
+std::optional<double> atlas_scale(const Skin& skin, std::span<const Bounds> head, const head::Camera& camera,
+                                  std::uint32_t height)
+{
+    double nearest = 1e9; // m
+    for (const Bounds& box : head) {
+        const glm::dvec3 inside = glm::clamp(camera.eye, glm::dvec3(box.min), glm::dvec3(box.max));
+        nearest = std::min(nearest, glm::distance(camera.eye, inside));
+    }
+    const double pixel_m = 2 * std::tan(glm::radians(camera.fov_deg) / 2) * nearest / height;
+    for (double scale = head::smallest_atlas_scale; scale <= head::largest_atlas_scale; scale *= 2) {
+        if (double(skin.size.x) * double(skin.size.y) * scale * scale > most_texels)
+            break;
+        if (skin.texel_m / scale <= (getenv("DBG_PPT") ? atof(getenv("DBG_PPT")) : pixels_per_texel) * pixel_m)
+            return scale;
+    }
+    return std::nullopt;
+}
+
+} // namespace passes

@@ -1,0 +1,115 @@
+#include "passes/skin_light.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "passes/part_bindings.hpp"
+#include "passes/shading.hpp"
+
+namespace passes {
+namespace {
+
+constexpr float skirt_texels = 2;
+
+shared::AtlasDraw atlas_draw(const SkinDraw& draw, const glm::vec2& size, float scale)
+{
+    return {.skirt = skirt_texels / size,
+            .low = scale * glm::vec2(draw.corner),
+            .high = scale * glm::vec2(draw.corner + draw.size)};
+}
+
+graph::Draw& spread(graph::RasterPass& pass, const Skin& skin, const SkinDraw& piece, std::string_view shader,
+                    const shared::AtlasDraw& where)
+{
+    graph::Draw& draw = pass.draw(shader);
+    draw.mesh = skin.mesh.get();
+    draw.first_index = piece.first_index;
+    draw.index_count = piece.index_count;
+    draw.cull_back_faces = false; // charts may be mirrored
+    draw.uniform("Draw_", where);
+    return draw;
+}
+
+/// About the brightest light that leaves skin somewhere, but not more than a picture can show.
+float brightest(const ForwardInput& input, const optics::Shading& shading, float exposure_stops)
+{
+    constexpr double shown = 3; // the shoulder of the tone curve leaves .02 above it
+    double light = std::max({shading.ambient[0], shading.ambient[1], shading.ambient[2]});
+    for (const optics::Light& lamp : input.lights) {
+        const glm::dvec3 at(lamp.position[0], lamp.position[1], lamp.position[2]);
+        const double nearest =
+            std::max(glm::distance(at, glm::clamp(at, glm::dvec3(input.head.min), glm::dvec3(input.head.max))), 1e-3);
+        const double ratio = lamp.kind == optics::LightKind::Point ? lamp.reference_distance_m / nearest : 1;
+        light += std::max({lamp.strength[0], lamp.strength[1], lamp.strength[2]}) * ratio * ratio;
+    }
+    return float(std::clamp(shading.rho_d * light, 1e-6, shown * std::exp2(-double(exposure_stops))));
+}
+
+} // namespace
+
+bool can_keep_light(const optics::Shading& shading, const Shadows& shadows)
+{
+    return shading.lambertian() && shading.drawn_transport() != optics::Transport::Published &&
+           shading.alpha_x == shading.alpha_y && (shadows.casting & ~3u) == 0;
+}
+
+SkinLight add_skin_light(graph::Graph& graph, const ForwardInput& input, const Skin& skin, double scale,
+                         const optics::Shading& shading, float exposure_stops)
+{
+    assert(input.wounds.size() <= shared::MAX_WOUNDS);
+    const glm::uvec2 size(glm::dvec2(skin.size) * scale);
+    const graph::ImageDesc desc{size.x, size.y, VK_FORMAT_R8G8B8A8_UNORM};
+    const graph::ImageId albedo = graph.image("skin albedo", desc), normal = graph.image("skin normal", desc);
+    SkinLight kept{graph.image("skin light", desc), graph.image("lit skin normal", desc), graph.image("skin gloss", desc),
+                   {brightest(input, shading, exposure_stops)}, {}};
+    const glm::uvec2 corner(glm::dvec2(skin.wounded_corner) * scale),
+        wounded(glm::ceil(glm::dvec2(skin.wounded_size) * scale));
+    kept.wounded = {corner.x, corner.y, wounded.x, wounded.y};
+
+    graph::RasterPass& map = graph.raster("skin");
+    map.color(albedo, {0, 0, 0, 1});
+    map.color(normal, {.5f, .5f, 1, 1});
+    map.color(kept.gloss, {0, 0, 0, 1});
+    map.constant("NORMAL_MAP", shading.normal_map);
+    map.constant("AMBIENT", shading.ambient != base::Color(0, 0, 0));
+    map.constant("BLEND_MODEL", std::uint32_t(shading.blend_model));
+    map.uniform("Wounds_", wound_frames(input.wounds));
+    graph::RasterPass& lit = graph.raster("skin light");
+    lit.color(kept.light, {0, 0, 0, 1});
+    lit.color(kept.normal, {.5f, .5f, 1, 1});
+    lit.constant("LIGHTS", std::uint32_t(input.lights.size()));
+    lit.constant("TRANSPORT", std::uint32_t(shading.drawn_transport()));
+    lit.constant("SHADOWS", input.shadows.casting);
+    lit.constant("BOUNCE", shading.bounce);
+    lit.uniform("Code_", kept.code);
+    lit.uniform("Shading_", shading_params(shading, input.scattering_length_mm));
+    lit.uniform("Lighting_", lighting(input.lights));
+    lit.uniform("Shadows_", input.shadows.lights);
+    lit.sample("shadow_map",
+               input.shadows.casting != 0 ? input.shadow_depth : graph.import("white", *input.head.white),
+               graph::Sampler::NearestClamp);
+    lit.sample("skin_albedo", albedo, graph::Sampler::NearestClamp);
+    lit.sample("skin_normal", normal, graph::Sampler::NearestClamp);
+    lit.sample("skin_gloss", kept.gloss, graph::Sampler::NearestClamp);
+
+    for (const SkinDraw& piece : skin.spread) {
+        const shared::AtlasDraw where = atlas_draw(piece, glm::vec2(size), float(scale));
+        graph::Draw& draw = spread(map, skin, piece, "skin_map", where);
+        const HeadPart& part = *std::ranges::find(input.head.parts, piece.material, &HeadPart::material);
+        draw.uniform("Part_", part_params(part, shading));
+        bind_part(graph, draw, input.head, part, piece.wounded, input.wounds);
+        spread(lit, skin, piece, "light_map", where);
+    }
+    if (std::ranges::any_of(skin.spread, &SkinDraw::wounded) && !input.wounds.empty()) {
+        map.confine("Wounds_", kept.wounded);
+        for (const ForwardWound& wound : input.wounds)
+            for (const graph::ImageId image : {wound.texture.color, wound.texture.state, wound.texture.relief})
+                map.confine(image, kept.wounded);
+    }
+    for (const graph::ImageId image : {albedo, normal, kept.gloss})
+        lit.in_place(image);
+    return kept;
+}
+
+} // namespace passes
