@@ -11,6 +11,7 @@ namespace passes {
 namespace {
 
 constexpr float skirt_texels = 2;
+constexpr double least_even_slope = .02; // below it tan^2 of the half vector loses its digits in single precision
 
 shared::AtlasDraw atlas_draw(const SkinDraw& draw, const glm::vec2& size, float scale)
 {
@@ -51,7 +52,7 @@ float brightest(const ForwardInput& input, const optics::Shading& shading, float
 bool can_keep_light(const optics::Shading& shading, const Shadows& shadows)
 {
     return shading.lambertian() && shading.drawn_transport() != optics::Transport::Published &&
-           shading.alpha_x == shading.alpha_y && (shadows.casting & ~3u) == 0;
+           shading.alpha_x == shading.alpha_y && shading.alpha_x >= least_even_slope && (shadows.casting & ~3u) == 0;
 }
 
 SkinLight add_skin_light(graph::Graph& graph, const ForwardInput& input, const Skin& skin, double scale,

@@ -60,7 +60,7 @@ void main()
     // The head's own shadows dim the lights' highlights, but a wound's hollow is in no shadow map.
     mirrored *= only_ward ? 1 : skin.occlusion;
     if (AMBIENT && WARD && SPECULAR_MODEL == SPECULAR_SKIN)
-        mirrored += params.mirrored * skin.occlusion * ambient_highlight(params, finish, open, frame[2], geometric, to_viewer);
+        mirrored += params.mirrored * skin.occlusion * ambient_highlight(params, finish, open, frame[2], local_viewer.z, geometric, to_viewer);
     const vec3 radiance = diffuse + mirrored;
     out_color = DEVELOPED ? vec4(developed(develop, radiance), 1) : vec4(finite_radiance(radiance), alpha);
 }

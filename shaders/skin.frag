@@ -32,16 +32,16 @@ layout(binding = 6) uniform sampler2D skin_gloss;
 layout(scalar, binding = 7) uniform Code_ { LightCode code; };
 layout(scalar, binding = 14) uniform Develop_ { Develop develop; };
 
+vec3 unit(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-20)); }
+
 void main()
 {
     const vec4 light_here = texture(light_map, v_place), normal = texture(lit_normal, v_place);
     const vec4 gloss = WOUNDED ? texture(skin_gloss, v_place) : vec4(0, 0, 0, 1);
-    const SkinPoint skin = decoded_skin(vec3(0), normal.rgb, gloss);
-    const vec3 to_viewer = normalize_or(view.eye - v_position, vec3(0, 0, 1));
-    const vec3 n = bend_to_viewer(skin.normal, to_viewer);
-    const vec3 tangent = across(n);
-    const mat3 frame = mat3(tangent, cross(n, tangent), n);
-    const vec3 local_viewer = to_viewer * frame;
+    SkinPoint skin = decoded_gloss(gloss);
+    skin.normal = unit(normal.rgb * 2 - 1);
+    const vec3 to_viewer = unit(view.eye - v_position);
+    const float facing = max(dot(skin.normal, to_viewer), LEAST_FACING);
 
     const bool only_ward = SPECULAR_MODEL == SPECULAR_WARD && WARD_MODEL == WARD_PUBLISHED;
     const ShadingParams params = with_gloss(SPECULAR_MODEL, only_ward, shading, part, skin);
@@ -52,13 +52,13 @@ void main()
         const LightSample light = sample_light(lighting.light[i], v_position);
         const float visible = (SHADOWS >> i & 1) == 0 ? 1 : i == 0 ? light_here.a : normal.a;
         mirrored += visible * light.strength *
-                    specular_times_cosine(SPECULAR_MODEL, WARD_MODEL, WOUNDED, params, finish, light.direction * frame,
-                                          local_viewer);
+                    even_specular_times_cosine(SPECULAR_MODEL, WARD_MODEL, WOUNDED, params, finish, light.direction, to_viewer,
+                                               dot(skin.normal, light.direction), facing);
     }
     mirrored *= only_ward ? 1 : skin.occlusion;
     if (AMBIENT && WARD && SPECULAR_MODEL == SPECULAR_SKIN)
         mirrored += params.mirrored * skin.occlusion *
-                    ambient_highlight(params, finish, v_open, n, normalize_or(v_normal, n), to_viewer);
+                    ambient_highlight(params, finish, v_open, skin.normal, facing, v_normal, to_viewer);
     const vec3 radiance = code.white * light_here.rgb * light_here.rgb + mirrored;
     out_color = DEVELOPED ? vec4(developed(develop, radiance), 1) : vec4(finite_radiance(radiance), 1);
 }

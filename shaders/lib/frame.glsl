@@ -33,11 +33,11 @@ mat3 frame_of(vec3 normal, vec4 tangent)
 
 // A normal-mapped normal may face away from the viewer of the visible surface. This bends it back to the
 // horizon, where reflection is dim but not cut off. n, to_viewer: unit.
+const float LEAST_FACING = 0.01;
 vec3 bend_to_viewer(vec3 n, vec3 to_viewer)
 {
-    const float least = 0.01;
     float cosine = dot(n, to_viewer);
-    return cosine >= least ? n : normalize_or(n + (least - cosine) * to_viewer, to_viewer);
+    return cosine >= LEAST_FACING ? n : normalize_or(n + (LEAST_FACING - cosine) * to_viewer, to_viewer);
 }
 
 #endif

@@ -23,9 +23,10 @@ LightSample sample_light(Light light, vec3 position)
 {
     if (light.kind == LIGHT_DIRECTIONAL)
         return LightSample(light.direction, light.strength);
-    float metres = light_distance(light, position);
-    float ratio = light.kind == LIGHT_POINT ? light.reference_distance / metres : 1.0;
-    return LightSample((light.position - position) / metres, ratio * ratio * light.strength);
+    vec3 offset = light.position - position;
+    float per_metre = min(inversesqrt(max(dot(offset, offset), 1e-30)), 1e3); // light_distance()'s bound
+    float ratio = light.kind == LIGHT_POINT ? light.reference_distance * per_metre : 1.0;
+    return LightSample(offset * per_metre, ratio * ratio * light.strength);
 }
 
 // The three terms of eq. (8) are separate functions, so that a shader computes only those it uses: leaving()

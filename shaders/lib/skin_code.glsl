@@ -14,10 +14,18 @@ vec4 coded_gloss(SkinPoint skin)
     return vec4(skin.wetness, skin.tautness, sqrt(min(skin.slope_variance / SPREAD_WHITE, 1.0)), skin.occlusion);
 }
 
+// A point of which only this is known.
+SkinPoint decoded_gloss(vec4 gloss)
+{
+    return SkinPoint(vec3(0.0), vec3(0.0), gloss.a, gloss.r, gloss.g, SPREAD_WHITE * gloss.b * gloss.b);
+}
+
 SkinPoint decoded_skin(vec3 albedo, vec3 normal, vec4 gloss)
 {
-    return SkinPoint(albedo * albedo, normalize_or(normal * 2.0 - 1.0, vec3(0.0, 0.0, 1.0)), gloss.a, gloss.r, gloss.g,
-                     SPREAD_WHITE * gloss.b * gloss.b);
+    SkinPoint skin = decoded_gloss(gloss);
+    skin.albedo = albedo * albedo;
+    skin.normal = normalize_or(normal * 2.0 - 1.0, vec3(0.0, 0.0, 1.0));
+    return skin;
 }
 
 #endif

@@ -43,6 +43,37 @@ float specular_times_cosine(uint model, uint ward_model, bool film, ShadingParam
     return 3.14159265358979 * p.fresnel_scale * fresnel_reflectance(ward.cosine) * lobes;
 }
 
+// specular_times_cosine() for a slope that is the same in all directions and not below .02: without a tangent frame.
+// `facing_i`, `facing_o`: cosines between the normal and i and o.
+float even_specular_times_cosine(uint model, uint ward_model, bool film, ShadingParams p, Finish finish, vec3 i, vec3 o,
+                                 float facing_i, float facing_o)
+{
+    float ci = max(facing_i, WARD_MIN_COSINE), co = max(facing_o, WARD_MIN_COSINE);
+    // Of the half vector. Divisions are dear on a software rasteriser, hence the factors.
+    float square = 2.0 + 2.0 * dot(i, o), per_across = 1.0 / (ci + co), per_q = per_across * per_across;
+    float form = max(facing_i, 0.0) * (1.0 / 3.14159265358979);
+    if (ward_model == WARD_PUBLISHED)
+        form *= 0.25 * inversesqrt(ci * co);
+    else if (ward_model == WARD_DUER)
+        form *= 0.25 / (ci * co);
+    else
+        form *= square * per_q * per_q;
+    float steepness = max(square * per_q - 1.0, 0.0), variance = p.slope.x * p.slope.x; // tan^2
+    if (film && model != SPECULAR_WARD)
+        variance += finish.slope_variance;
+    float per_variance = 1.0 / variance, wide = exp(-steepness * per_variance);
+    if (model == SPECULAR_WARD)
+        return p.rho_s * form * per_variance * wide;
+    float square_of = wide * wide;
+    float lobes = ((1.0 - NARROW_SHARE) * wide + 4.0 * NARROW_SHARE * square_of * square_of) * per_variance;
+    if (film)
+    {
+        float per_wet = 1.0 / (WET_SLOPE * WET_SLOPE + finish.slope_variance);
+        lobes = mix(lobes, exp(-steepness * per_wet) * per_wet, finish.wetness);
+    }
+    return 3.14159265358979 * p.fresnel_scale * fresnel_reflectance(min(0.5 * sqrt(square), 1.0)) * form * lobes;
+}
+
 // The share of even light that SPECULAR_SKIN reflects, without fresnel_scale. `cosine` between normal and viewer.
 float ambient_specular(ShadingParams p, Finish finish, float cosine)
 {
@@ -64,10 +95,10 @@ float above_horizon(float cosine)
     return x * x;
 }
 
-// What is mirrored of even light with the radiance 1, without fresnel_scale. All vectors are unit vectors.
-float ambient_highlight(ShadingParams p, Finish finish, float open, vec3 normal, vec3 geometric, vec3 to_viewer)
+// What is mirrored of even light with the radiance 1, without fresnel_scale. All vectors are unit vectors. cosine: between
+// normal and viewer.
+float ambient_highlight(ShadingParams p, Finish finish, float open, vec3 normal, float cosine, vec3 geometric, vec3 to_viewer)
 {
-    float cosine = dot(normal, to_viewer);
     return ambient_specular(p, finish, cosine) * specular_occlusion(open, cosine) *
            above_horizon(2.0 * cosine * dot(normal, geometric) - dot(to_viewer, geometric));
 }
