@@ -62,18 +62,21 @@ graph::Region pixels_of(const ForwardWound& wound, const shared::View& view, std
     return {first.x, first.y, last.x - first.x, last.y - first.y};
 }
 
-/// Declares that a new day changes the picture only where the wounds are.
-void confine_wounds(graph::RasterPass& pass, std::span<const ForwardWound> wounds, const shared::View& view,
-                    const graph::ImageDesc& target)
+/// Declares that a new day changes the picture only where the wounds are. `shown`: HeadPart::wounds of all that is drawn;
+/// the images of a wound that reaches no triangle are not sampled.
+void confine_wounds(graph::RasterPass& pass, std::span<const ForwardWound> wounds, std::uint32_t shown,
+                    const shared::View& view, const graph::ImageDesc& target)
 {
     graph::Region all;
     for (const ForwardWound& wound : wounds) {
+        if ((shown >> wound.index & 1) == 0)
+            continue;
         const graph::Region region = pixels_of(wound, view, target.width, target.height);
         all = bounds(all, region);
         for (const graph::ImageId image : {wound.texture.color, wound.texture.state, wound.texture.relief})
             pass.confine(image, region);
     }
-    if (!wounds.empty())
+    if (!all.empty())
         pass.confine("Wounds_", all);
 }
 
@@ -121,7 +124,6 @@ void prepare_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardIn
     pass.constant("BOUNCE", shading.bounce);
     pass.constant("TRANSLUCENCY_MODEL", std::uint32_t(shading.translucency_model));
     pass.constant("BLEND_MODEL", std::uint32_t(shading.blend_model));
-    pass.uniform("Wounds_", wound_frames(input.wounds));
     pass.uniform("Shadows_", input.shadows.lights);
     pass.sample("shadow_map",
                 input.shadows.casting != 0 ? input.shadow_depth : graph.import("white", *input.head.white),
@@ -143,7 +145,7 @@ void draw_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput
         const shared::Part params = part_params(part, shading);
         draw.uniform("Part_", params);
         draw.constant("WARD", shading.glossy() && params.specular > 0);
-        bind_part(graph, draw, input.head, part, part.wounded, input.wounds);
+        bind_part(graph, draw, input.head, part, part.wounds, input.wounds);
     }
 }
 
@@ -161,7 +163,7 @@ void draw_skin(graph::RasterPass& pass, const ForwardInput& input, const Skin& s
         draw.uniform("Part_", params);
         draw.uniform("Code_", kept.code);
         draw.constant("WARD", shading.glossy() && params.specular > 0);
-        draw.constant("WOUNDED", shown.wounded && !input.wounds.empty());
+        draw.constant("WOUNDED", shown.wounds != 0);
         draw.sample("light_map", kept.light);
         draw.sample("lit_normal", kept.normal);
         draw.sample("skin_gloss", kept.gloss);
@@ -214,9 +216,11 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
         graph::Draw& backdrop = pass.draw("backdrop");
         backdrop.index_count = 3;
     }
-    // The images of a wound that reaches no triangle are not sampled.
-    if (!rest.empty() || std::ranges::any_of(parts, &HeadPart::wounded))
-        confine_wounds(pass, input.wounds, view, target);
+    std::uint32_t shown = 0;
+    for (const std::vector<HeadPart>* drawn : {&parts, &rest})
+        for (const HeadPart& part : *drawn)
+            shown |= part.wounds;
+    confine_wounds(pass, input.wounds, shown, view, target);
     if (input.kept)
         confine_skin(pass, input, view, target);
     return radiance;

@@ -31,6 +31,7 @@ struct ForwardWound
     ReflectanceLut lut;
     shared::LutAxes axes; // of `lut`
     const wound::WoundDay* today = nullptr;
+    std::uint32_t index = 0; // in with_wounds()
 };
 
 /// The wounds' uniform block, read by project_wound() and add_wound() (shaders/lib/wound_projection.glsl).

@@ -41,7 +41,7 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
         const WoundTexture texture = add_wound_texture(graph, suffix, wound.maps, wound.today);
         const ReflectanceLut lut =
             add_reflectance_lut(graph, "reflectance_lut" + suffix, wound.tissue, input.reflectance);
-        placed.push_back({wound.anchor, texture, lut, wound.tissue.parameters.axes, &wound.today});
+        placed.push_back({wound.anchor, texture, lut, wound.tissue.parameters.axes, &wound.today, std::uint32_t(i)});
         images.wounds.push_back(texture);
         // The graph drops the passes of a wound that the picture does not sample, unless something else needs
         // their images: labels, and the measurement of areas.
@@ -52,9 +52,10 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
     std::ranges::copy_if(input.lights, std::back_inserter(lights),
                          [](const optics::Light& light) { return light.strength != base::Color(0, 0, 0); });
     ForwardInput forward{input.head, seen, lights, {}, {}, input.every_frame, input.scattering_length_mm};
-    const auto scale = input.skin && placed.size() <= shared::MAX_WOUNDS
-                           ? atlas_scale(*input.skin, input.head.boxes, input.camera, input.tile.picture[1])
-                           : std::nullopt;
+    std::optional<double> scale;
+    if (input.skin && placed.size() <= shared::MAX_WOUNDS)
+        scale = input.skin_scale ? input.skin_scale
+                                 : atlas_scale(*input.skin, input.head.boxes, input.camera, input.tile.picture[1]);
     const bool lit = input.shading.lambertian() || input.shading.glossy();
     std::optional<SkinLight> kept;
     if (scale) {

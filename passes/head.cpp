@@ -3,34 +3,30 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <opencv2/imgproc.hpp>
 
 namespace passes {
 namespace {
 
-/// Splits a part into the triangles on which a wound can show and the rest; appends both to `indices`
-/// and to the parts of `head`, and the first to its wounded triangles.
+/// Splits a part by the sets of wounds that can show on a triangle; appends to `indices` and to the parts of `head`, and
+/// to its wounded triangles.
 void append_split(const head::Model& model, std::span<const WoundReach> wounds, HeadPart part,
                   std::vector<std::uint32_t>& indices, Head& head)
 {
-    std::vector<std::uint32_t> split[2];
+    std::map<std::uint32_t, std::vector<std::uint32_t>> split; // by HeadPart::wounds
     for (std::uint32_t i = part.first_index; i + 2 < part.first_index + part.index_count; i += 3) {
-        const auto triangle = head::corners_of(model, i);
-        bool wounded = false;
-        for (std::size_t k = 0; part.surface == head::Surface::Skin && k < wounds.size(); ++k)
-            if (wounds[k].holds(model, i)) {
-                wounded = true;
-                head.wounded[k].push_back({triangle, part.double_sided});
-            }
-        split[wounded].insert(split[wounded].end(), &model.indices[i], &model.indices[i] + 3);
+        const std::uint32_t set = part.surface == head::Surface::Skin ? wounds_on(model, i, wounds) : 0;
+        for (std::size_t k = 0; k < wounds.size(); ++k)
+            if ((set >> k & 1) != 0)
+                head.wounded[k].push_back({head::corners_of(model, i), part.double_sided});
+        split[set].insert(split[set].end(), &model.indices[i], &model.indices[i] + 3);
     }
-    for (const bool wounded : {false, true}) {
-        if (split[wounded].empty())
-            continue;
+    for (const auto& [set, triangles] : split) {
         part.first_index = std::uint32_t(indices.size());
-        part.index_count = std::uint32_t(split[wounded].size());
-        part.wounded = wounded;
-        indices.insert(indices.end(), split[wounded].begin(), split[wounded].end());
+        part.index_count = std::uint32_t(triangles.size());
+        part.wounds = set;
+        indices.insert(indices.end(), triangles.begin(), triangles.end());
         head.parts.push_back(part);
     }
 }
@@ -51,6 +47,14 @@ bool WoundReach::holds(const head::Model& model, std::size_t first) const
     const glm::dvec2 least_on(least), most_on(most);
     return facing > 0 && glm::all(glm::lessThanEqual(least_on, high)) && glm::all(glm::greaterThanEqual(most_on, low)) &&
            least.z <= head::Anchor::reach && most.z >= -head::Anchor::reach;
+}
+
+std::uint32_t wounds_on(const head::Model& model, std::size_t first, std::span<const WoundReach> wounds)
+{
+    std::uint32_t set = 0;
+    for (std::size_t k = 0; k < wounds.size(); ++k)
+        set |= std::uint32_t(wounds[k].holds(model, first)) << k;
+    return set;
 }
 
 gpu::MeshBuffer upload_mesh(const gpu::Device& device, std::span<const head::Vertex> vertices,

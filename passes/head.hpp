@@ -24,12 +24,15 @@ struct WoundReach
     bool operator==(const WoundReach&) const = default;
 };
 
+/// Bit k: wound k, of at most 32, can show on the triangle.
+std::uint32_t wounds_on(const head::Model& model, std::size_t first, std::span<const WoundReach> wounds);
+
 struct HeadPart
 {
     head::Surface surface = head::Surface::Skin;
     std::uint32_t first_index = 0, index_count = 0, material = 0; // material: of the model
     bool blend = false, double_sided = false;
-    bool wounded = false; // skin on which a wound can show
+    std::uint32_t wounds = 0; // bit i: skin on which wound i of with_wounds() can show
     const gpu::Texture *albedo = nullptr, *normal = nullptr,
                        *occlusion = nullptr; // owned by Head::textures; never null after upload_head()
     glm::vec4 albedo_factor{1.0f};
@@ -55,7 +58,7 @@ gpu::MeshBuffer upload_mesh(const gpu::Device& device, std::span<const head::Ver
 /// Uploads the model; each of its primitives becomes one part, not wounded.
 Head upload_head(const gpu::Device& device, const head::Model& model);
 
-/// Returns a copy of `head` with separate parts for the skin triangles on which a wound can show. It
+/// Returns a copy of `head` with separate parts for the skin triangles of each set of wounds that can show on them. It
 /// shares vertices, textures and shadow casters with `head`, which upload_head() must have made from `model`.
 Head with_wounds(const gpu::Device& device, const Head& head, const head::Model& model,
                  std::span<const WoundReach> wounds);

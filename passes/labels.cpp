@@ -26,7 +26,7 @@ LabelImages add_labels(graph::Graph& graph, const Head& head, std::span<const Fo
             continue;
         // Every sampler of the shader must be bound; unused ones get the white texel.
         std::vector<graph::ImageId> state(shared::MAX_WOUNDS, blank), relief = state;
-        for (std::size_t i = 0; part.wounded && i < wounds.size(); ++i) {
+        for (std::size_t i = 0; part.wounds != 0 && i < wounds.size(); ++i) {
             state[i] = wounds[i].texture.state;
             relief[i] = wounds[i].texture.relief;
         }
@@ -35,7 +35,7 @@ LabelImages add_labels(graph::Graph& graph, const Head& head, std::span<const Fo
         draw.first_index = part.first_index;
         draw.index_count = part.index_count;
         draw.cull_back_faces = !part.double_sided;
-        draw.constant("WOUNDS", part.wounded ? std::uint32_t(wounds.size()) : 0u);
+        draw.constant("WOUNDS", part.wounds != 0 ? std::uint32_t(wounds.size()) : 0u);
         draw.constant("SURFACE",
                       part.surface == head::Surface::Skin ? shared::LABEL_SKIN : shared::LABEL_OTHER);
         draw.sample("wound_state", state);

@@ -18,6 +18,7 @@ void bind_wounds(graph::Draw& draw, std::span<const ForwardWound> wounds, graph:
         lut[i] = wounds[i].lut.reflectance;
     }
     draw.constant("WOUNDS", std::uint32_t(wounds.size()));
+    draw.uniform("Wounds_", wound_frames(wounds));
     draw.sample("wound_color", color);
     draw.sample("wound_state", state);
     draw.sample("wound_relief", relief);
@@ -40,7 +41,7 @@ shared::Part part_params(const HeadPart& part, optics::Shading shading)
             .scattering = part.surface == head::Surface::Skin ? 1.f : 0.f};
 }
 
-void bind_part(graph::Graph& graph, graph::Draw& draw, const Head& head, const HeadPart& part, bool wounded,
+void bind_part(graph::Graph& graph, graph::Draw& draw, const Head& head, const HeadPart& part, std::uint32_t set,
                std::span<const ForwardWound> wounds)
 {
     const auto map = [&](const char* name, const char* image, const gpu::Texture& texture) {
@@ -51,7 +52,11 @@ void bind_part(graph::Graph& graph, graph::Draw& draw, const Head& head, const H
     map("normal_map", "normal", *part.normal);
     map("occlusion_map", "occlusion", *part.occlusion);
     draw.constant("OCCLUSION_MAP", part.occlusion != head.white);
-    bind_wounds(draw, wounded ? wounds : wounds.first(0), graph.import("white", *head.white));
+    std::vector<ForwardWound> showing;
+    for (const ForwardWound& wound : wounds)
+        if ((set >> wound.index & 1) != 0)
+            showing.push_back(wound);
+    bind_wounds(draw, showing, graph.import("white", *head.white));
 }
 
 } // namespace passes

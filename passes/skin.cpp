@@ -64,16 +64,16 @@ class Spreading
     {
         std::vector<head::AtlasTriangle> whole;
         for (const head::AtlasTriangle& triangle : tile.home)
-            if (wounded(triangle.first)) {
-                Group& group = group_of(rest, material_[triangle.first / 3]);
+            if (const std::uint32_t wounds = wounds_on(model_, triangle.first, wounds_); wounds != 0) {
+                Group& group = group_of(rest, material_[triangle.first / 3], wounds);
                 group.indices.insert(group.indices.end(), &model_.indices[triangle.first], &model_.indices[triangle.first] + 3);
             } else
                 whole.push_back(triangle);
-        const std::vector<Group> home = groups(tile.home);
-        append(groups(tile.margin), tile, skin.spread);
+        const std::vector<Group> home = groups(tile.home, false);
+        append(groups(tile.margin, false), tile, skin.spread);
         append(skirts(home), tile, skin.spread);
         append(home, tile, skin.spread);
-        append(groups(whole), tile, skin.shown);
+        append(groups(whole, false), tile, skin.shown);
     }
 
     /// A tile around a wound.
@@ -81,16 +81,11 @@ class Spreading
     {
         if (tile.home.empty())
             return;
-        std::vector<head::AtlasTriangle> touched, whole;
-        for (const head::AtlasTriangle& triangle : tile.home)
-            (wounded(triangle.first) ? touched : whole).push_back(triangle);
-        std::vector<Group> home = groups(touched);
-        for (Group& group : home)
-            group.wounded = true;
-        std::ranges::move(groups(whole), std::back_inserter(home));
-        std::vector<Group> margin = groups(tile.margin);
+        const std::vector<Group> home = groups(tile.home, true);
+        std::vector<Group> margin = groups(tile.margin, false); // one for each material: their order matters
         for (Group& group : margin)
-            group.wounded = true;
+            for (const Group& other : home)
+                group.wounds |= other.wounds;
         append(margin, tile, skin.spread);
         append(skirts(home), tile, skin.spread); // over the margin, which beyond an outline is skin far behind
         append(home, tile, skin.spread);
@@ -99,8 +94,7 @@ class Spreading
 
     struct Group
     {
-        std::uint32_t material = 0;
-        bool wounded = false;
+        std::uint32_t material = 0, wounds = 0; // HeadPart::wounds
         std::vector<std::uint32_t> indices;
     };
 
@@ -110,23 +104,19 @@ class Spreading
     std::vector<Group> rest; // wounded triangles without a place in a wound's tile; of the model's vertices
 
   private:
-    bool wounded(std::uint32_t first) const
+    static Group& group_of(std::vector<Group>& groups, std::uint32_t material, std::uint32_t wounds)
     {
-        return std::ranges::any_of(wounds_, [&](const WoundReach& wound) { return wound.holds(model_, first); });
+        const auto known = std::ranges::find_if(
+            groups, [&](const Group& group) { return group.material == material && group.wounds == wounds; });
+        return known != groups.end() ? *known : groups.emplace_back(Group{material, wounds, {}});
     }
 
-    static Group& group_of(std::vector<Group>& groups, std::uint32_t material)
-    {
-        const auto known = std::ranges::find(groups, material, &Group::material);
-        return known != groups.end() ? *known : groups.emplace_back(Group{material, false, {}});
-    }
-
-    /// By material.
-    std::vector<Group> groups(std::span<const head::AtlasTriangle> triangles)
+    std::vector<Group> groups(std::span<const head::AtlasTriangle> triangles, bool with_wounds)
     {
         std::vector<Group> result;
         for (const head::AtlasTriangle& triangle : triangles) {
-            Group& group = group_of(result, material_[triangle.first / 3]);
+            Group& group = group_of(result, material_[triangle.first / 3],
+                                    with_wounds ? wounds_on(model_, triangle.first, wounds_) : 0);
             for (std::uint32_t k = 0; k < 3; ++k)
                 group.indices.push_back(vertex(model_.indices[triangle.first + k], triangle.at[k], group.material));
         }
@@ -205,7 +195,7 @@ class Spreading
             if (group.indices.empty())
                 continue;
             draws.push_back({std::uint32_t(indices.size()), std::uint32_t(group.indices.size()), group.material,
-                             group.wounded, tile.corner, tile.size});
+                             group.wounds, tile.corner, tile.size});
             indices.insert(indices.end(), group.indices.begin(), group.indices.end());
         }
     }
@@ -256,7 +246,7 @@ std::shared_ptr<const Skin> upload_skin(const gpu::Device& device, const Head& h
         HeadPart part = *std::ranges::find(head.parts, group.material, &HeadPart::material);
         part.first_index = std::uint32_t(rest.size());
         part.index_count = std::uint32_t(group.indices.size());
-        part.wounded = true;
+        part.wounds = group.wounds;
         skin.rest.push_back(part);
         rest.insert(rest.end(), group.indices.begin(), group.indices.end());
     }
@@ -277,7 +267,7 @@ std::optional<double> atlas_scale(const Skin& skin, std::span<const Bounds> head
     for (double scale = head::smallest_atlas_scale; scale <= head::largest_atlas_scale; scale *= 2) {
         if (double(skin.size.x) * double(skin.size.y) * scale * scale > most_texels)
             break;
-        if (skin.texel_m / scale <= (getenv("DBG_PPT") ? atof(getenv("DBG_PPT")) : pixels_per_texel) * pixel_m)
+        if (skin.texel_m / scale <= pixels_per_texel * pixel_m)
             return scale;
     }
     return std::nullopt;

@@ -18,7 +18,7 @@ struct SkinDraw
 {
     std::uint32_t first_index = 0, index_count = 0;
     std::uint32_t material = 0;         // of the model
-    bool wounded = false;               // a wound can show on it
+    std::uint32_t wounds = 0;           // HeadPart::wounds
     glm::uvec2 corner{0}, size{0};      // units, of the tile
 };
 

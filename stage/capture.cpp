@@ -140,7 +140,6 @@ class Capture
     void picture(const scene::Shot& shot)
     {
         progress_.show(label(shot));
-        draw_options_.light_stands = getenv("DBG_KEEP") != nullptr;
         const Drawing drawing = draw(renderer_, stage_, shot, draw_options_);
         if (!first_picture_ms_)
             first_picture_ms_ = process_ms();
@@ -204,7 +203,7 @@ class Capture
                                  film_frames(options_)};
         DrawOptions frame_options = draw_options_;
         frame_options.radiance = frame_options.areas = false;
-        frame_options.light_stands = true;
+        frame_options.light_stands = sweep.first_day == sweep.last_day; // a turntable
         const std::filesystem::path path = film_path(options_.video, view.name);
         base::Film film(path, frame_options.size, options_.fps);
         json record{{"file", path.string()}, {"fps", options_.fps}, {"frames", json::array()}};

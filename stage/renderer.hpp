@@ -36,10 +36,10 @@ struct DrawOptions
     std::array<std::uint32_t, 2> size{1280, 720};
     bool transparent = false;  // the picture is RGBA with straight alpha, the radiance premultiplied RGBA
     bool radiance = false;     // fill Drawing::radiance
-    bool light_stands = false; // FrameRequest::light_stands
     bool areas = true;         // fill Drawing::bed_texels
     std::uint32_t tile = 2048; // pictures with a longer side are drawn in tiles; even
     std::uint32_t apron = 0;   // ViewportTile::apron; even
+    bool light_stands = false; // FrameRequest::light_stands
 };
 
 struct Drawing

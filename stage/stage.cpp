@@ -201,6 +201,12 @@ const passes::Skin* Stage::skin() const
     return spread_.skin.get();
 }
 
+std::optional<double> Stage::light_scale(const head::Camera& camera, std::uint32_t height) const
+{
+    const passes::Skin* spread = skin();
+    return spread ? passes::atlas_scale(*spread, set_.wounded->boxes, camera, height) : std::nullopt;
+}
+
 base::Color Stage::scattering_length_mm(const optics::Shading& shading) const
 {
     if (shading.drawn_transport() != optics::Transport::Preintegrated)
@@ -258,6 +264,7 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
                                              .every_frame = request.every_frame,
                                              .scattering_length_mm = scattering_length_mm(shading),
                                              .skin = kept,
+                                             .skin_scale = request.light_scale,
                                              .radiance = request.radiance});
     return frame;
 }

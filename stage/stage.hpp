@@ -36,6 +36,7 @@ struct FrameRequest
     /// More frames with the same light follow: it is kept on the skin, which costs this frame more and those less.
     /// Not while something is dragged.
     bool light_stands = false;
+    std::optional<double> light_scale; // of the skin's atlas; none: Stage::light_scale()
     bool radiance = true; // FrameImages::radiance is needed
 };
 
@@ -96,6 +97,10 @@ class Stage
 
     /// The view of a camera for a tile.
     shared::View view(const head::Camera& camera, const passes::ViewportTile& tile) const;
+
+    /// The scale of the skin's atlas at which light is kept for this camera and height of the picture, pixels; none when it
+    /// is computed in every pixel because the head has no usable skin or the camera is too near.
+    std::optional<double> light_scale(const head::Camera& camera, std::uint32_t height) const;
 
     /// Declares a frame. The graph keeps the device data that the frame reads alive.
     Frame declare(graph::Graph& graph, const FrameRequest& request) const;

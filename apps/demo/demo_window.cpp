@@ -16,6 +16,7 @@ namespace demo_command {
 namespace {
 
 constexpr std::array<int, 2> first_size{1280, 720};
+constexpr double light_rest_s = .4;  // s, after which light that stands is kept on the skin
 constexpr double frame_s = 1.0 / 60; // s, the shortest time between frames of playback and fades
 
 gpu::DeviceOptions window_device(const DemoOptions& options, const window::Window& window)
@@ -101,6 +102,8 @@ std::optional<double> DemoWindow::seconds_to_wait() const
     };
     if (state_.loading || (stage_ && stage_->pending()) || (compared_ && compared_->pending()))
         at_most(.03);
+    if (stage_ && !compared_ && !light_.rested)
+        at_most(std::max(light_.since + light_rest_s - now, .05));
     if (const std::optional<double> notice = state_.notices.next_change())
         at_most(*notice - now);
     return wait;
@@ -198,11 +201,25 @@ bool DemoWindow::render()
     const std::array<std::uint32_t, 2> full = view_pixels();
     if (!stage_ || recording_ || full[0] < 16 || full[1] < 16)
         return false;
+    watch_light(full[1]);
     const double scale = quality_.scale(now_s());
     Drawn drawn = draw_picture(1);
     if (drawn == Drawn::NotNow)
         drawn = draw_picture(scale);
     return drawn == Drawn::Now;
+}
+
+void DemoWindow::watch_light(std::uint32_t height)
+{
+    const double now = now_s();
+    scene::Scene lit = stage_->scene();
+    lit.camera = {};
+    if (compared_ || stage_->pending() || light_.day != state_.playback.day || light_.scene != lit)
+        light_ = {std::move(lit), state_.playback.day, now, false, std::nullopt};
+    else if (now >= light_.since + light_rest_s && quality_.scale(now) == 1 && !state_.moving) {
+        light_.rested = true;
+        light_.scale = stage_->light_scale(stage_->loaded().camera(), height);
+    }
 }
 
 /// Draws the picture at `scale` unless it is up to date; at full scale, not while something moves.
@@ -213,7 +230,7 @@ DemoWindow::Drawn DemoWindow::draw_picture(double scale)
                                             std::max(16u, std::uint32_t(std::lround(full[1] * scale)))};
     graph::Graph graph;
     const double day = state_.playback.day;
-    const stage::FrameRequest now{.day = day, .tile = size, .every_frame = false, .light_stands = true, .radiance = false};
+    const stage::FrameRequest now{.day = day, .tile = size, .every_frame = false, .light_stands = light_.scale.has_value(), .light_scale = light_.scale, .radiance = false};
     stage::FrameRequest other = now;
     other.day = compared_day(day);
     const graph::ImageId picture =

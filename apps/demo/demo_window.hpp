@@ -52,6 +52,7 @@ class DemoWindow
         NotNow // something moves: draw at a smaller scale
     };
     Drawn draw_picture(double scale);
+    void watch_light(std::uint32_t height);
     window::WindowFrame frame(const ImDrawData* ui) const;
     std::array<std::uint32_t, 2> view_pixels() const;
     void tell_facts(); // to the interface
@@ -110,6 +111,16 @@ class DemoWindow
     std::optional<stage::Stage> compared_; // shown right of the divider
     History history_{scene::Scene{}};
     scene::Scene on_disk_; // as last read or saved
+    /// Light that is kept on the skin: since when the scene's light, wounds and day have stood, and at which scale of the
+    /// atlas it was last drawn at rest. While a camera moves the scale stays.
+    struct StandingLight
+    {
+        scene::Scene scene; // without its camera
+        double day = -1, since = 0;
+        bool rested = false;
+        std::optional<double> scale;
+    };
+    StandingLight light_;
     Quality quality_;
     VkImage picture_ = VK_NULL_HANDLE;
     std::array<std::uint32_t, 2> picture_size_{};

@@ -19,6 +19,7 @@
 #include "base/progress.hpp"
 #include "scene/command_line.hpp"
 #include "scene/file.hpp"
+#include "stage/kept_light.hpp"
 #include "stage/renderer.hpp"
 
 namespace report_command {
@@ -159,6 +160,22 @@ void sweep(const ReportOptions& options, const scene::Scene& scene, const gpu::D
                options.sweeps.size(), options.out.string());
 }
 
+/// How much a picture differs when light is kept on the skin. Returns a line of text.
+std::string add_kept_light(json& facts, const gpu::Device& device, const graph::ShaderLibrary& library,
+                           const stage::Stage& stage)
+{
+    gpu::Executor executor(device, library);
+    const stage::KeptLightError error = stage::measure_kept_light(
+        executor, stage, {.day = stage.scene().days.front(), .tile = stage.scene().size, .every_frame = false});
+    facts["kept_light"] = {{"kept", error.kept}, {"pixels", error.pixels}, {"mean_de", error.mean},
+                           {"p95_de", error.p95}, {"p999_de", error.p999}, {"max_de", error.max}};
+    if (!error.kept)
+        return "light is not kept on this skin: it is computed in every pixel";
+    return fmt::format("light kept on the skin differs from light computed in every pixel by {:.2f} CIEDE2000 (mean over the "
+                       "head; p95 {:.2f}, p99.9 {:.2f}, worst pixel {:.1f})",
+                       error.mean, error.p95, error.p999, error.max);
+}
+
 void report(const ReportOptions& options)
 {
     const scene::Scene scene = scene::chosen_scene(options);
@@ -188,6 +205,7 @@ void report(const ReportOptions& options)
     facts["alignment"] = alignment_json(measurements);
     stage::fail_on_validation(device);
 
+    const std::string kept = add_kept_light(facts, device, library, stage);
     std::vector<CaseSummary> summaries;
     for (const stage::Measurement& measurement : measurements)
         summaries.push_back(summarise(measurement));
@@ -203,6 +221,7 @@ void report(const ReportOptions& options)
         fmt::print("{}\n", to_text(summary));
     if (comparison)
         fmt::print("{}\n", to_text(*comparison));
+    fmt::print("{}\n", kept);
     fmt::print("report.html, report.json and trace.json (for ui.perfetto.dev or chrome://tracing) in {}\n",
                options.out.string());
 }

@@ -54,7 +54,7 @@ struct ExternalImage
 class Reach
 {
   public:
-    /// A change of a uniform block or buffer touches no texel outside `region`; neither does a change from an earlier
+    /// A change of a uniform block or buffer, of the pass or of its draws, touches no texel outside `region`; neither does a change from an earlier
     /// frame's value outside the regions of both frames.
     void confine(std::string_view block, const Region& region) { confined.push_back({std::string(block), {}, region}); }
     /// The same of a sampled image's contents.

@@ -173,8 +173,12 @@ class GraphChecker
                 complain("pass {}: confines a change to a region, but writes images of several sizes", name_of(pass));
         std::set<std::string> seen;
         for (const Reach::Confined& input : confined) {
-            const bool block = std::visit(
+            bool block = std::visit(
                 [&](const Bindings& bindings) { return find_named(bindings.data, input.block) != nullptr; }, pass);
+            if (const auto* raster = std::get_if<RasterPass>(&pass))
+                block |= std::ranges::any_of(raster->draws, [&](const Draw& draw) {
+                    return find_named(draw.data, input.block) != nullptr;
+                });
             const std::string name = input.block.empty() ? image_name(input.image) : input.block;
             if (!seen.insert(name).second)
                 complain("pass {}: confines changes of {} twice", name_of(pass), name);

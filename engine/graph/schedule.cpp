@@ -211,7 +211,8 @@ class Scheduler
         for (const Reach::Confined& input : confined)
             for (KeyPart& part : key)
                 if (input.image.valid() ? part.what == "input " + image_name(input.image)
-                                        : part.what == "uniform " + input.block || part.what == "buffer " + input.block) {
+                                        : part.what.ends_with("uniform " + input.block) ||
+                                              part.what.ends_with("buffer " + input.block)) { // of the pass or a draw
                     part.region = input.region;
                     part.source = input.source;
                     part.in_place = !input.region;

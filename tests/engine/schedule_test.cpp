@@ -325,6 +325,38 @@ TEST(Schedule, AConfinedChangeRefreshesItsRegionInEveryPassThatFollowsInPlace)
               "warp skipped: unchanged | forward skipped: unchanged | tonemap skipped: unchanged");
 }
 
+/// light, which confines the wound's changes to `inside` -> forward, which shows a change within `source` at `region`.
+graph::Graph on_a_surface(float day, const graph::Region& inside, const graph::Region& source, const graph::Region& region)
+{
+    graph::Graph graph;
+    const graph::ImageId wound = add_compute(graph, "warp", {}, day);
+    const graph::ImageId light = add_raster(graph, "light", {wound});
+    std::get<graph::RasterPass>(graph.passes.back()).confine(wound, inside);
+    const graph::ImageId picture = add_raster(graph, "forward", {light});
+    std::get<graph::RasterPass>(graph.passes.back()).confine(light, source, region);
+    graph.readback("picture", picture);
+    return graph;
+}
+
+TEST(Schedule, AChangeWithinASourceRefreshesWhereItIsShown)
+{
+    constexpr graph::Region tile{0, 0, 32, 16};
+    graph::Memory memory = graph::schedule(on_a_surface(3, spot, tile, moved_spot), {}).memory;
+    const graph::Plan plan = graph::schedule(on_a_surface(4, spot, tile, moved_spot), memory);
+    EXPECT_EQ(pass_plan(plan, "light").region, spot);
+    EXPECT_EQ(pass_plan(plan, "forward").region, moved_spot);
+}
+
+TEST(Schedule, AChangeBeyondASourceRefreshesEverything)
+{
+    constexpr graph::Region tile{0, 0, 12, 16};
+    graph::Memory memory = graph::schedule(on_a_surface(3, spot, tile, moved_spot), {}).memory;
+    EXPECT_EQ(pass_plan(graph::schedule(on_a_surface(4, spot, tile, moved_spot), memory), "forward").region, std::nullopt);
+    constexpr graph::Region all{0, 0, 64, 32};
+    memory = graph::schedule(on_a_surface(3, all, tile, moved_spot), {}).memory;
+    EXPECT_EQ(pass_plan(graph::schedule(on_a_surface(4, all, tile, moved_spot), memory), "forward").region, std::nullopt);
+}
+
 TEST(Schedule, ARegionThatMovesRefreshesWhereItWasToo)
 {
     graph::Memory memory = graph::schedule(Spot(3, spot).graph, {}).memory;

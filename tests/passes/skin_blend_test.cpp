@@ -77,7 +77,7 @@ class Scene
         maps_.region = wound::drawn_region(prepared, healing);
         const head::Model skin = wall(open);
         head_ = passes::with_wounds(gpu_test::device(), passes::upload_head(gpu_test::device(), skin), skin,
-                                    std::array{anchor_});
+                                    std::array{passes::WoundReach{anchor_}});
     }
 
     cv::Mat4f draw(const wound::WoundDay& today, const optics::Shading& shading,
