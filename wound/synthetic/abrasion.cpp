@@ -11,9 +11,9 @@ namespace {
 float scraped(const TissuePainter& painter, const Place& place)
 {
     const float streak = painter.streaks(place), broken = painter.noise(place.p, .45f, 21, 3);
-    const float runs_out = base::smoothstep(-.4f, 3.2f, place.inside_mm + 1.4f * streak);
+    const float runs_out = base::smoothstep(-.6f, 1.8f, place.inside_mm + .9f * streak);
     const float island = base::smoothstep(.16f, .42f, painter.noise(place.p, .22f, 24, 3) - .3f * streak);
-    return std::clamp(.58f + .55f * streak + .35f * broken, 0.f, 1.f) * runs_out * (1 - .95f * island);
+    return std::clamp(.62f + .5f * streak + .35f * broken, 0.f, 1.f) * runs_out * (1 - .95f * island);
 }
 
 void scrape(const TissuePainter& painter, Tissue& skin, const Place& place, float deep)
@@ -52,8 +52,8 @@ WoundKind abrasion()
         const float oval = ellipse(p, length, width);
         const cv::Point2f centre{vary(seed, 3, -8, 8), vary(seed, 4, -6, 6)};
         const float lobe = ellipse(p - centre, vary(seed, 7, 4, 8), vary(seed, 8, 2.5f, 5));
-        const cv::Point2f tip{vary(seed, 5, 13, 17), vary(seed, 6, -6, 6)};
-        return merge(merge(oval, lobe, 4), tear(p, {4, tip.y / 2}, tip, 3, .4f), 3);
+        const cv::Point2f tip{vary(seed, 5, 12, 15.5f), vary(seed, 6, -6, 6)};
+        return merge(merge(oval, lobe, 4), tear(p, {4, tip.y / 2}, tip, 4, 1.3f), 4);
     };
     const auto bed = [](const TissuePainter& painter, const Place& place) {
         Tissue tissue = painter.skin(place);
@@ -63,9 +63,9 @@ WoundKind abrasion()
         return tissue;
     };
     const auto beside = [](const TissuePainter& painter, Tissue& skin, const Place& place) {
-        const float near = base::smoothstep(-5.5f, -.2f, place.inside_mm);
+        const float near = base::smoothstep(-4.f, -.1f, place.inside_mm);
         const float streak = painter.streaks(place);
-        const float deep = .5f * near * base::smoothstep(.05f, .6f, streak - .5f * (1 - near));
+        const float deep = .4f * near * base::smoothstep(.2f, .75f, streak - .5f * (1 - near));
         if (deep > .01f) {
             const float layer = skin.layer;
             scrape(painter, skin, place, deep);
@@ -73,11 +73,11 @@ WoundKind abrasion()
         }
     };
     return {.name = "abrasion",
-            .raggedness = 1,
+            .raggedness = .8f,
             .shape = shape,
             .bed = bed,
             .beside = beside,
-            .inflamed = .7f,
+            .inflamed = .55f,
             .swollen_mm = .05f,
             .smeared = .3f,
             .course = {{curve_through(4.5, 10), HealingModel::Face, .85}, 30, .2}};

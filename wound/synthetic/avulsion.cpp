@@ -38,7 +38,7 @@ WoundKind avulsion()
     };
     const auto bed = [](const TissuePainter& painter, const Place& place) {
         const float flap = on_flap(painter, place);
-        const float wall = 3 * (1 + .7f * place.slow[Wall]) * (1 - .5f * flap); // undercut below the flap
+        const float wall = 2.4f * (1 + .7f * place.slow[Wall]) * (1 - .5f * flap); // undercut below the flap
         const float fat = .42f + .9f * place.slow[Knobby];
         Tissue tissue = painter.cut(place, 2.06f + .05f * place.slow[Floor], wall, fat);
         painter.lay_fibrin(tissue, place);
@@ -63,7 +63,9 @@ WoundKind avulsion()
             .beside = beside,
             .clot = .16f,
             .fibrin = .1f,
-            .smeared = 1,
+            .inflamed = .8f,
+            .swollen_mm = .22f,
+            .smeared = .7f,
             .course = {{}, 30, .5, 1.2}};
 }
 

@@ -36,7 +36,7 @@ WoundKind laceration()
             .bed = bed,
             .clot = .35f,
             .inflamed = .7f,
-            .swollen_mm = .25f,
+            .swollen_mm = .2f,
             .smeared = .5f,
             .course = {{curve_through(5, 12), HealingModel::Face, .2}, 30, .2, 1.1}};
 }

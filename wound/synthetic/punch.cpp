@@ -13,7 +13,7 @@ WoundKind punch()
     };
     const auto bed = [](const TissuePainter& painter, const Place& place) {
         Tissue tissue =
-            painter.cut(place, 2.1f + .03f * place.slow[Floor], 1.4f, .7f + .6f * place.slow[Knobby]);
+            painter.cut(place, 2.1f + .03f * place.slow[Floor], 1.4f, .3f + .6f * place.slow[Knobby]);
         painter.lay_clot(tissue, place);
         return tissue;
     };
@@ -21,7 +21,7 @@ WoundKind punch()
             .raggedness = .07f,
             .shape = shape,
             .bed = bed,
-            .clot = .4f,
+            .clot = .5f,
             .inflamed = .55f,
             .swollen_mm = .12f,
             .smeared = .2f,

@@ -168,14 +168,14 @@ void TissuePainter::inflame(Tissue& tissue, const Place& place) const
     const float far =
         std::exp(-out / 5.5f) * std::max(1 + 1.3f * spread, .2f) * (1 - base::smoothstep(7, reach_mm, out));
     const float tight = (out - .45f - .3f * mottle) / .5f; // near 0, swelling squeezes the blood out
-    const float blanched = 1 - .6f * std::exp(-tight * tight) * std::clamp(.8f + 1.5f * spread, 0.f, 1.f);
+    const float blanched = 1 - .5f * std::exp(-tight * tight) * std::clamp(.8f + 1.5f * spread, 0.f, 1.f);
     const float amount = kind_.inflamed * (near * std::max(.62f + .45f * mottle, .1f) * blanched +
                                            .14f * far * std::max(1 + .8f * mottle, 0.f));
     const float bruised = near * base::smoothstep(.0f, .5f, place.slow[Bruise]);
     tissue.reflectance = through(tissue.reflectance, mix(oxygenated, deoxygenated, .8f * bruised), amount);
     const float swelling = (out - 1.3f) / 1.5f;
     tissue.layer -= kind_.swollen_mm / 1.5f * (1 + .8f * spread) * std::exp(-swelling * swelling) *
-                    base::smoothstep(0, .9f, out);
+                    base::smoothstep(0, 1.5f, out);
     tissue.wetness = .25f * near;
 }
 
@@ -202,23 +202,24 @@ void TissuePainter::smear_blood(Tissue& tissue, const Place& place) const
     raise(tissue, .12f * kind_.smeared * speck);
 }
 
-/// Lobules of fat, 1 to 2 mm, yellow and glossy, with blood in the clefts between them.
+/// Lobules of fat, about 1 mm, yellow and glossy, with blood in the clefts between them.
 Tissue TissuePainter::fat_lobules(const Place& place) const
 {
-    const Point2f p = place.p + .9f * Point2f(place.slow[BendX], place.slow[BendY]);
-    const Cell coarse = cell_at(seed() + 3, p * .72f), fine = cell_at(seed() + 4, p * 1.7f);
+    const Point2f p = place.p + .9f * Point2f(place.slow[BendX], place.slow[BendY]) +
+                      .22f * Point2f(noise(place.p, 1.1f, 47, 2), noise(place.p, 1.1f, 48, 2));
+    const Cell coarse = cell_at(seed() + 3, p * .9f), fine = cell_at(seed() + 4, p * 2.1f);
     const float cleft =
-        base::smoothstep(-.12f, .55f, coarse.second - coarse.nearest + .14f * noise(p, 1.3f, 46, 2));
+        base::smoothstep(-.2f, .7f, coarse.second - coarse.nearest + .14f * noise(p, 1.3f, 46, 2));
     const float dome = cleft * (1 - .55f * coarse.nearest * coarse.nearest) +
                        .35f * base::smoothstep(0, .4f, fine.second - fine.nearest);
     const float film = noise(p, .6f, 45, 4), own = fraction(coarse.id * 2654435761u);
     Tissue tissue;
     const Vec3f yellow = mix(Vec3f(.82f, .60f, .30f), Vec3f(.78f, .52f, .22f), own);
     const float blood =
-        std::max(.42f + 1.1f * film + .8f * (1 - cleft) + .6f * std::max(place.slow[Supply], 0.f), .12f);
-    tissue.reflectance = through(yellow, oxygenated, blood) * (.78f + .2f * std::min(dome, 1.1f));
+        std::max(.32f + 1.2f * film + .6f * (1 - cleft) + .7f * std::max(place.slow[Supply], 0.f), .1f);
+    tissue.reflectance = through(yellow, oxygenated, blood) * (.86f + .12f * std::min(dome, 1.1f));
     tissue.layer = 2.1f; // for raise(); cut() sets it
-    tissue.height_mm = .22f * (dome - .7f);
+    tissue.height_mm = .16f * (dome - .7f);
     tissue.wetness = .9f;
     return tissue;
 }
@@ -231,7 +232,7 @@ Tissue TissuePainter::cut(const Place& place, float floor, float wall_mm, float 
     Tissue red;
     const float deep = std::clamp(layer - 1, 0.f, 1.f);
     const float blood =
-        std::max(.8f + 2.2f * deep + .8f * place.slow[Supply] + .6f * rough + .3f * fine, .3f);
+        std::max(1.1f + 2.f * deep + .8f * place.slow[Supply] + .6f * rough + .3f * fine, .3f);
     red.reflectance =
         through(pale_dermis, mix(oxygenated, deoxygenated, .15f * deep), blood) * (.93f + .1f * rough);
     red.height_mm = .12f * rough;
@@ -306,7 +307,7 @@ void TissuePainter::lay_clot(Tissue& tissue, const Place& place) const
                 thickness = base::smoothstep(.0f, .5f, over + .4f * lumps);
     tissue.reflectance = through(tissue.reflectance, mix(deoxygenated, dried, .6f * film), 1.5f * film);
     const Vec3f colour =
-        mix(Vec3f(.17f, .018f, .014f), Vec3f(.062f, .012f, .010f), thickness) * (1 + .45f * lumps);
+        mix(Vec3f(.125f, .016f, .012f), Vec3f(.052f, .011f, .009f), thickness) * (1 + .45f * lumps);
     const float crack = base::smoothstep(.94f, .99f, 1 - std::abs(noise(p, .4f, 75, 2))) *
                         base::smoothstep(.1f, .4f, thickness);
     tissue.reflectance = mix(tissue.reflectance, colour, .92f * body * (1 - .6f * crack));

@@ -34,7 +34,7 @@ WoundKind ulcer()
         skin.layer -= .2f * rolled;
         skin.reflectance =
             mix(skin.reflectance, {.76f, .55f, .49f},
-                std::clamp(.42f * rolled * (1 + painter.noise(place.p, .8f, 91, 3)), 0.f, 1.f)); // macerated
+                std::clamp(.3f * rolled * (1 + painter.noise(place.p, .8f, 91, 3)), 0.f, 1.f)); // macerated
         const float stained = base::smoothstep(9, 1.5f, out) * base::smoothstep(.6f, 2, out) *
                               std::max(.8f + place.slow[Uneven], 0.f);
         skin.reflectance = through(skin.reflectance, deoxygenated, .45f * stained);
@@ -43,7 +43,7 @@ WoundKind ulcer()
         skin.reflectance = mix(skin.reflectance, {.72f, .62f, .54f}, .3f * scales);
     };
     Healing healing{curve_through(28, 84), HealingModel::Face, .5};
-    healing.age_days = 10; // its bleeding is over
+    healing.age_days = 5; // its bleeding is over and its slough still there
     return {.name = "ulcer",
             .raggedness = .65f,
             .shape = shape,
