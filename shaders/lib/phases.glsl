@@ -22,8 +22,8 @@ vec3 tinted(vec3 color, vec3 around, BedPhase phase)
     const float redness = clamp(1 - 2 * around.g / max(around.r, 1e-4), 0.0, 1.0);
     const float relief = sqrt(clamp(light_of(color, phase), 0.35, 1.8)); // the texture of the bed shows through
     color = mix(color, CLOT_COLOR * relief, 0.8 * turned(phase.clot, 1 - paleness));
-    color = mix(color, FIBRIN_COLOR * relief, 0.65 * turned(phase.fibrin, paleness));
-    return mix(color, GRANULATION_COLOR * relief, 0.8 * turned(phase.granulation, redness));
+    color = mix(color, FIBRIN_COLOR * relief, 0.65 * turned(phase.fibrin, paleness * (1 - 0.5 * redness))); // clean red beds stay so
+    return mix(color, GRANULATION_COLOR * relief, 0.72 * turned(phase.granulation, redness));
 }
 
 #endif

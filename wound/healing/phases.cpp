@@ -111,8 +111,9 @@ cv::Vec3d tinted(const cv::Vec3d& color, const cv::Vec3d& around, const Phase& p
     // Keeps the photograph's texture visible.
     const double relief = std::sqrt(std::clamp(light_of(color), .35, 1.8));
     Vec3d result = mix(color, clot_color * relief, .8 * changed(phase.clot, 1 - paleness));
-    result = mix(result, fibrin_color * relief, .65 * changed(phase.fibrin, paleness));
-    return mix(result, granulation_color * relief, .8 * changed(phase.granulation, redness));
+    // Clean red beds stay so.
+    result = mix(result, fibrin_color * relief, .65 * changed(phase.fibrin, paleness * (1 - .5 * redness)));
+    return mix(result, granulation_color * relief, .72 * changed(phase.granulation, redness));
 }
 
 } // namespace wound

@@ -16,7 +16,7 @@ namespace wound {
 struct Phase
 {
     double clot = 0;        // dark and dried, the darkest texels first
-    double fibrin = 0;      // yellow slough or crust, the palest texels first
+    double fibrin = 0;      // yellow slough, the palest texels that are not red first
     double granulation = 0; // even red tissue, the reddest texels first
     double rim = 1;         // factor on the patch's opacity outside the mask: the inflamed halo fades
 };

@@ -31,10 +31,10 @@ WoundKind ulcer()
         const float out = -place.inside_mm;
         const float roll = (out - .7f) / .75f,
                     rolled = std::exp(-roll * roll) * std::clamp(.6f + 2.2f * place.slow[Stretch], .05f, 1.2f);
-        skin.layer -= .2f * rolled;
+        skin.layer -= .13f * rolled;
         skin.reflectance =
             mix(skin.reflectance, {.76f, .55f, .49f},
-                std::clamp(.3f * rolled * (1 + painter.noise(place.p, .8f, 91, 3)), 0.f, 1.f)); // macerated
+                std::clamp(.22f * rolled * (1 + painter.noise(place.p, .8f, 91, 3)), 0.f, 1.f)); // macerated
         const float stained = base::smoothstep(9, 1.5f, out) * base::smoothstep(.6f, 2, out) *
                               std::max(.8f + place.slow[Uneven], 0.f);
         skin.reflectance = through(skin.reflectance, deoxygenated, .45f * stained);
@@ -50,7 +50,7 @@ WoundKind ulcer()
             .bed = bed,
             .beside = beside,
             .fibrin = .42f,
-            .inflamed = .7f,
+            .inflamed = .55f,
             .swollen_mm = 0,
             .course = {healing, 30, .5, 1.2}};
 }
