@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "base/sampling.hpp"
 #include "passes/wound_texture.hpp"
 #include "tests/support/gpu.hpp"
 #include "wound/healing/phases.hpp"
@@ -112,7 +113,9 @@ TEST_F(WoundFormulas, ReliefIsTheSlopeAndTheOpennessOfTheDepth)
         const gpu::FrameResult frame = executor.run(graph);
         const cv::Mat4f color = read(frame, color_id), state = read(frame, state_id),
                         relief = read(frame, relief_id);
-        const auto at = [&](int x, int y) { return depth(state, x, y, day.depth_scale, day.scar.height_mm); };
+        const double left = std::min(4 * day.unhealed_ratio, 1.); // granulation fills the last quarter of the area
+        const double scale = day.depth_scale * left * left * (3 - 2 * left);
+        const auto at = [&](int x, int y) { return depth(state, x, y, scale, day.scar.height_mm); };
         for (int y = 0; y < 128; ++y)
             for (int x = 0; x < 128; ++x) {
                 double du = 0, dv = 0;

@@ -9,7 +9,7 @@ namespace wound {
 
 namespace {
 
-constexpr double highest_mm = .2; // at highest_month
+constexpr double highest_mm = .25; // at highest_month
 constexpr double highest_month = 2.5;
 constexpr double sunken_mm = .06; // final depth below the skin
 

@@ -39,7 +39,7 @@ WoundKind avulsion()
     const auto bed = [](const TissuePainter& painter, const Place& place) {
         const float flap = on_flap(painter, place);
         const float wall = 2.4f * (1 + .7f * place.slow[Wall]) * (1 - .5f * flap); // undercut below the flap
-        const float fat = .42f + .9f * place.slow[Knobby];
+        const float fat = .52f + .9f * place.slow[Knobby];
         Tissue tissue = painter.cut(place, 2.06f + .05f * place.slow[Floor], wall, fat);
         painter.lay_fibrin(tissue, place);
         painter.lay_clot(tissue, place);

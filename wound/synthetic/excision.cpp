@@ -16,7 +16,7 @@ WoundKind excision()
     };
     const auto bed = [](const TissuePainter& painter, const Place& place) {
         Tissue tissue =
-            painter.cut(place, 2.05f + .02f * place.slow[Floor], 1.3f, .6f + .5f * place.slow[Knobby]);
+            painter.cut(place, 2.05f + .02f * place.slow[Floor], 1.3f, .78f + .5f * place.slow[Knobby]);
         painter.lay_clot(tissue, place);
         return tissue;
     };
