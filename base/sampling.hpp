@@ -42,4 +42,39 @@ cv::Vec<double, channels> sample(const std::vector<cv::Mat>& levels, cv::Point2d
     return (1 - toward_coarser) * value + toward_coarser * sample<channels>(levels[finer + 1], uv);
 }
 
+/// One level smoothed by a cubic B-spline, whose slope has no kinks at the texels' centres.
+template <int channels>
+cv::Vec<double, channels> sample_smooth(const cv::Mat& image, cv::Point2d uv)
+{
+    const double at[2] = {uv.x * image.cols - .5, uv.y * image.rows - .5};
+    double weights[2][4];
+    cv::Point first;
+    for (int axis = 0; axis < 2; ++axis) {
+        const double whole = std::floor(at[axis]), f = at[axis] - whole, g = 1 - f;
+        (axis == 0 ? first.x : first.y) = static_cast<int>(whole) - 1;
+        const double four[4] = {g * g * g / 6, (4 + 3 * f * f * (f - 2)) / 6, (4 + 3 * g * g * (g - 2)) / 6,
+                                f * f * f / 6};
+        std::copy(four, four + 4, weights[axis]);
+    }
+    cv::Vec<double, channels> sum = cv::Vec<double, channels>::all(0);
+    for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 4; ++i)
+            sum += weights[0][i] * weights[1][j] *
+                   cv::Vec<double, channels>(image.at<cv::Vec<float, channels>>(
+                       std::clamp(first.y + j, 0, image.rows - 1), std::clamp(first.x + i, 0, image.cols - 1)));
+    return sum;
+}
+
+template <int channels>
+cv::Vec<double, channels> sample_smooth(const std::vector<cv::Mat>& levels, cv::Point2d uv, double lod)
+{
+    const double level = std::clamp(lod, 0., static_cast<double>(levels.size() - 1));
+    const auto finer = static_cast<std::size_t>(level);
+    const double toward_coarser = level - static_cast<double>(finer);
+    const cv::Vec<double, channels> value = sample_smooth<channels>(levels[finer], uv);
+    if (toward_coarser == 0)
+        return value;
+    return (1 - toward_coarser) * value + toward_coarser * sample_smooth<channels>(levels[finer + 1], uv);
+}
+
 } // namespace base

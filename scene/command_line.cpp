@@ -82,10 +82,12 @@ void override_wound(const SceneOptions& options, Scene& scene)
     if (scene.wounds.empty())
         scene.wounds.resize(1);
     Wound& wound = scene.wounds.front();
+    const Wound before = wound;
     if (!options.wound.empty())
         wound.photo = options.wound;
     wound.mask = options.mask; // drop the scene's mask: it belongs to another photo, or the hints replace it
     wound.segmentation = hints;
+    follow_usual_course(before, wound);
     if (wound.photo.empty())
         throw base::InputError(options.mask.empty() ? "--seed, --rect" : "--mask", "is given without a photo",
                                "name the photo it belongs to with --wound");

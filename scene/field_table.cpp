@@ -94,6 +94,12 @@ const std::vector<Field<wound::Healing>>& healing_fields()
                             "residual_border", "", 0, 1, [](auto& h) -> auto& { return h.residual_border; },
                             "final share of the area inside the outer border; for `face`"),
                         {"residual", 0, 1, "%.2f of the border"})),
+        shown_when([](const Healing& healing) { return healing.model == wound::HealingModel::Face; },
+                   with_slider(number<Healing>(
+                                   "age_days", "days", 0, 1000, [](auto& h) -> auto& { return h.age_days; },
+                                   "age of the wound on day 0: the phases of these days (clot, fibrin) are "
+                                   "over; for `face`"),
+                               {"age", 0, 30, "%.0f days"})),
     });
     return table;
 }
@@ -122,7 +128,7 @@ const std::vector<Field<Wound>>& wound_fields()
             [](json& to, const Wound& wound) { to["segmentation"] = hints_json(wound.segmentation); }),
         choice<Wound>(
             "kind", wound::kind_names(), [](auto& w) -> auto& { return w.kind; },
-            "shape of the default wound"),
+            "kind of the default wound: outline, depth, tissue and the usual course of its healing"),
         integer<Wound>(
             "seed", 0, 0xffffffff, [](auto& w) -> auto& { return w.seed; },
             "random seed of the default wound"),
@@ -148,8 +154,16 @@ const std::vector<Field<Wound>>& wound_fields()
                                   "depth_factor", "", 0, 5, [](auto& w) -> auto& { return w.depth_factor; },
                                   "factor on the depth estimated from hue and tissue thickness")),
                     {"depth", 0, 3, "%.2f x"}),
-        nested<Wound>("healing", healing_fields(), &Wound::healing, "how the wound closes, see below",
-                      Affects::Fit),
+        affecting(Affects::Fit,
+                  custom<Wound>(
+                      "healing", "object",
+                      "how the wound closes, see below; where neither this nor the scene's `healing` says "
+                      "anything of the "
+                      "curve, a default wound closes by its kind, width and place",
+                      [](base::Fields& fields, Wound& wound, Reading& reading) {
+                          read_healing(wound, fields.get("healing"), fields.where("healing"), reading);
+                      },
+                      [](json& to, const Wound& wound) { to["healing"] = healing_json(wound); })),
     });
     return table;
 }
@@ -303,20 +317,15 @@ const std::vector<Field<Scene>>& scene_fields()
         custom<Scene>(
             "healing", "object", "of every wound; a wound's own `healing` overrides single fields",
             [](base::Fields& fields, Scene& scene, Reading& reading) {
-                if (const json* all = fields.get("healing"))
-                    read_object(healing_fields(), *all, fields.where("healing"), reading.healing_of_all,
-                                reading);
+                reading.healing_of_all = fields.get("healing");
+                reading.where_of_all = fields.where("healing");
                 for (Wound& wound : scene.wounds)
-                    wound.healing = reading.healing_of_all;
+                    read_healing(wound, nullptr, {}, reading);
             },
             [](json&, const Scene&) {}), // each wound writes its own
         defaulting(list<Scene>("wounds", std::size_t(shared::MAX_WOUNDS), wound_fields(), &Scene::wounds,
                                "see below; `[]` renders the bare head",
-                               [](const Reading& reading) {
-                                   Wound wound;
-                                   wound.healing = reading.healing_of_all;
-                                   return wound;
-                               }),
+                               [](const Reading&) { return Wound{}; }),
                    "one default wound"),
         tissue_field(),
         reflectance_model_field(),

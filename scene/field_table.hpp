@@ -58,8 +58,9 @@ struct FieldInfo
 /// Context for reading a field.
 struct Reading
 {
-    std::filesystem::path file;    // the scene's file; paths in the scene are relative to its folder
-    wound::Healing healing_of_all; // the scene's `healing`, default of every wound
+    std::filesystem::path file; // the scene's file; paths in the scene are relative to its folder
+    const nlohmann::json* healing_of_all = nullptr; // the scene's `healing`, default of every wound
+    std::string where_of_all{};                     // its place, for messages
 };
 
 template <typename Object>

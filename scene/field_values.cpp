@@ -1,6 +1,7 @@
 #include "scene/field_values.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -137,6 +138,43 @@ wound::SegmentationHints read_hints(const json& object, const std::string& where
     }
     fields.finish();
     return hints;
+}
+
+namespace {
+
+/// The fields of a healing that make up its course.
+constexpr std::array course_fields{"gamma", "delta", "theta", "residual_border", "age_days"};
+
+/// Whether the object says something of the curve.
+bool says_curve(const json* healing)
+{
+    return healing != nullptr && healing->is_object() &&
+           std::ranges::any_of(std::array{"areas", "series", "gamma", "delta", "theta"},
+                               [&](const char* field) { return healing->contains(field); });
+}
+
+} // namespace
+
+void read_healing(Wound& wound, const json* own, const std::string& where, Reading& reading)
+{
+    wound.healing = usual_healing(wound);
+    if (says_curve(reading.healing_of_all) || says_curve(own))
+        wound.healing.curve = {};
+    if (reading.healing_of_all != nullptr)
+        read_object(healing_fields(), *reading.healing_of_all, reading.where_of_all, wound.healing, reading);
+    if (own != nullptr)
+        read_object(healing_fields(), *own, where, wound.healing, reading);
+}
+
+json healing_json(const Wound& wound)
+{
+    json written = object_json(healing_fields(), wound.healing);
+    wound::Healing usual = usual_healing(wound);
+    usual.model = wound.healing.model;
+    if (wound.healing == usual)
+        for (const char* field : course_fields)
+            written.erase(field);
+    return written;
 }
 
 // ---- Rules that involve several fields of one object

@@ -16,7 +16,7 @@ using nlohmann::json;
 Scene scene_of(const json& root, const std::filesystem::path& path, const std::string& where)
 {
     Scene scene;
-    Reading reading{path, {}};
+    Reading reading{path};
     read_object(scene_fields(), root, where + ": ", scene, reading);
     return scene;
 }

@@ -20,7 +20,8 @@ inline constexpr int scene_version = 1;
 Scene read_scene(const std::filesystem::path& path);
 /// Like read_scene(), from JSON: paths are relative to the folder of `path`, and messages begin with `where`.
 Scene scene_of(const nlohmann::json& root, const std::filesystem::path& path, const std::string& where);
-/// The scene as JSON with all fields, as in capture.json; scene_of() of it gives an equal scene.
+/// The scene as JSON with all fields, as in capture.json, but without healing courses that are
+/// usual_healing(); scene_of() of it gives an equal scene.
 nlohmann::json to_json(const Scene& scene);
 
 /// The scene with every non-empty file path replaced by rename(path).

@@ -53,17 +53,10 @@ std::filesystem::path head_file(const std::filesystem::path& file)
     return file.empty() ? head::default_head_path() : file;
 }
 
-/// Converts face coordinates (unit: nose to crown) to those of wound::tissue_thickness(): ears at x = +-1,
-/// hairline and chin at y = +-1.
-cv::Point2d tissue_coordinates(const head::FacePoint& face)
-{
-    return {face.x / 0.55, face.y / (face.y > 0 ? 0.65 : 0.58)};
-}
-
 /// The layers' thickness for the wound's depth.
-wound::TissueThickness tissue_at(const Wound& wound, const head::FacePoint& face)
+wound::TissueThickness scaled_tissue(const Wound& wound, const head::FacePoint& face)
 {
-    const wound::TissueThickness tissue = wound::tissue_thickness(tissue_coordinates(face));
+    const wound::TissueThickness tissue = tissue_at(face);
     return {tissue.epidermis * wound.depth_factor, tissue.dermis * wound.depth_factor,
             tissue.subcutis * wound.depth_factor};
 }
@@ -71,7 +64,7 @@ wound::TissueThickness tissue_at(const Wound& wound, const head::FacePoint& face
 std::shared_ptr<const WoundLoader::Prepared> make_prepared(const Wound& wound, const std::string& name)
 {
     auto made = std::make_shared<WoundLoader::Prepared>();
-    made->tissue = tissue_at(wound, head::known_face_point(wound.place).value_or(head::FacePoint{}));
+    made->tissue = scaled_tissue(wound, head::known_face_point(wound.place).value_or(head::FacePoint{}));
     wound::Preparation preparation;
     preparation.where = wound.mask.empty() ? name : wound.mask.string();
     preparation.width_mm = wound.width_mm;
@@ -94,13 +87,13 @@ std::shared_ptr<const WoundLoader::Prepared> make_prepared(const Wound& wound, c
 FittedWound fit_part(const Wound& wound, const WoundLoader::Prepared& photograph, std::size_t part,
                      const head::Anchor& anchor, const LoadedHead& head)
 {
-    FittedWound fitted{
-        photograph.prepared[part], anchor, wound::tissue_thickness(tissue_coordinates(anchor.face)), {}};
+    FittedWound fitted{photograph.prepared[part], anchor, tissue_at(anchor.face), {}};
     wound::Patch& patch = fitted.prepared.patch;
-    if (const wound::TissueThickness tissue = tissue_at(wound, anchor.face); tissue != photograph.tissue) {
+    if (const wound::TissueThickness tissue = scaled_tissue(wound, anchor.face); tissue != photograph.tissue)
+    {
         wound::DepthOptions options;
         options.tissue = tissue;
-        patch.depth_mm = wound::depth_map(patch.color, patch.mask, patch.width_mm, options);
+        patch.depth_mm = wound::depth_of(patch, options);
     }
     patch = wound::match_to_skin(patch, head::albedo_under(*head.model, head.skin, anchor, patch.color.cols));
     fitted.region = wound::drawn_region(fitted.prepared, wound.healing);

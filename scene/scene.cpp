@@ -6,12 +6,47 @@
 #include "base/input_error.hpp"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/shading.h"
+#include "wound/synthetic/kind.hpp"
 
 namespace scene {
 
 std::string name_of(const Wound& wound, std::size_t index)
 {
     return wound.photo.empty() ? fmt::format("wound {}", index + 1) : wound.photo.string();
+}
+
+namespace {
+
+/// Converts face coordinates (unit: nose to crown) to those of wound::tissue_thickness(): ears at x = +-1,
+/// hairline and chin at y = +-1.
+cv::Point2d tissue_coordinates(const head::FacePoint& face)
+{
+    return {face.x / 0.55, face.y / (face.y > 0 ? 0.65 : 0.58)};
+}
+
+} // namespace
+
+wound::TissueThickness tissue_at(const head::FacePoint& face)
+{
+    return wound::tissue_thickness(tissue_coordinates(face));
+}
+
+wound::Healing usual_healing(const Wound& wound)
+{
+    if (!wound.photo.empty())
+        return {};
+    return wound::usual_healing(wound::kind_named(wound.kind), wound.width_mm,
+                                tissue_at(head::known_face_point(wound.place).value_or(head::FacePoint{})));
+}
+
+void follow_usual_course(const Wound& before, Wound& edited)
+{
+    wound::Healing usual = usual_healing(before);
+    usual.model = before.healing.model;
+    if (before.healing != usual || edited.healing != before.healing)
+        return;
+    edited.healing = usual_healing(edited);
+    edited.healing.model = before.healing.model;
 }
 
 double last_day(const Scene& scene)

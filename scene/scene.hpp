@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "head/placement.hpp"
+#include "wound/depth.hpp"
 #include "wound/healing/healing.hpp"
 #include "wound/optics/reflectance.hpp"
 #include "wound/optics/shading.hpp"
@@ -21,15 +22,26 @@ struct Wound
     std::filesystem::path photo;           // empty: the default wound, generated from `kind` and `seed`
     std::filesystem::path mask;            // empty: the photo is segmented
     wound::SegmentationHints segmentation; // used without a mask
-    std::string kind = "abrasion";
+    std::string kind = "avulsion";         // wound::kind_names()
     std::uint32_t seed = 3;
     head::Place place = std::string("cheek");
     double width_mm = 30;    // the wound's longer side
     double roll_deg = 0;     // counter-clockwise as the viewer sees it
     double depth_factor = 1; // factor on the thickness of the tissue's layers
-    wound::Healing healing;
+    wound::Healing healing;  // here usual_healing() of a Wound{}
     bool operator==(const Wound&) const = default;
 };
+
+/// How a wound closes where a scene does not say it: a default wound by its kind, width and place, a
+/// photograph's by the default curve.
+wound::Healing usual_healing(const Wound& wound);
+
+/// After an edit of a wound's kind, width, place or photo: if its course was the usual one and was not edited
+/// itself, it becomes the usual one of the edited wound; the model stays.
+void follow_usual_course(const Wound& before, Wound& edited);
+
+/// Thickness of the skin's layers at a place of the face, without depth_factor.
+wound::TissueThickness tissue_at(const head::FacePoint& face);
 
 /// A direction from the face's middle: 0, 0 is in front; positive azimuth is to the viewer's right, positive
 /// elevation above.

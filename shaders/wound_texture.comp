@@ -26,6 +26,25 @@ float mip_of(vec2 today_point, vec2 day0_point, vec2 centre)
     return log2(max(distance(day0_point, centre) / max(distance(today_point, centre), 1e-6), 1));
 }
 
+// Depth and coverage of one mip level, smoothed by a cubic B-spline, whose slope has no kinks at the texels' centres: four
+// bilinear reads (Sigg and Hadwiger 2005, "Fast third-order texture filtering").
+vec2 smooth_shape(vec2 uv, int level)
+{
+    const vec2 size = vec2(textureSize(day0_shape, level));
+    const vec2 at = uv * size - 0.5, f = fract(at), g = 1 - f;
+    const vec2 left = (g * g * g + 4 + 3 * f * f * (f - 2)) / 6, right = 1 - left;
+    const vec2 a = (floor(at) + 0.5 - g * g * g / (6 * left)) / size, b = (floor(at) + 1.5 + f * f * f / (6 * right)) / size;
+    const vec2 above = left.x * textureLod(day0_shape, a, level).rg + right.x * textureLod(day0_shape, vec2(b.x, a.y), level).rg;
+    const vec2 below = left.x * textureLod(day0_shape, vec2(a.x, b.y), level).rg + right.x * textureLod(day0_shape, b, level).rg;
+    return left.y * above + right.y * below;
+}
+
+vec2 smooth_shape(vec2 uv, float level)
+{
+    level = clamp(level, 0.0, float(textureQueryLevels(day0_shape) - 1));
+    return mix(smooth_shape(uv, int(level)), smooth_shape(uv, int(ceil(level))), fract(level));
+}
+
 void main()
 {
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -44,13 +63,13 @@ void main()
         const vec2 from_bed = warp_backward(WARP_MODEL, today.bed, p);
         bed_shape = textureLod(day0_shape, from_bed * 0.5 + 0.5, mip_of(p, from_bed, today.bed.center)).rg;
     }
-    // New skin has a soft edge: its coverage comes from a mip level that blurs by about a millimetre.
-    if (PHASES)
-        border_shape.g = mix(border_shape.g, textureLod(day0_shape, from_border * 0.5 + 0.5, border_mip + 3.5).g,
-                             today.border_softness);
+    // New skin has a soft edge: its shape comes from a mip level that blurs by about a millimetre.
     if (PHASES)
     {
-        day0.rgb = mix(day0.rgb, tinted(day0.rgb, today.phase), bed_shape.g);
+        border_shape = mix(border_shape, smooth_shape(from_border * 0.5 + 0.5, border_mip + 3), today.border_softness);
+        // Clot and slough come in patches with soft edges, so a blurred level says what turns into them.
+        const vec3 around = textureLod(day0_color, from_border * 0.5 + 0.5, border_mip + 2.5).rgb;
+        day0.rgb = mix(day0.rgb, tinted(day0.rgb, around, today.phase), bed_shape.g);
         day0.a *= mix(today.phase.rim, 1, border_shape.g);
     }
     bed_shape.g *= today.bed_presence;

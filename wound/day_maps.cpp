@@ -9,17 +9,20 @@
 
 #include "base/color.hpp"
 #include "base/sampling.hpp"
+#include "base/smoothstep.hpp"
 
 namespace wound {
 
 namespace {
 
 constexpr double occlusion_reach_mm = 4;
+constexpr double filled_ratio = .25; // of the area; a smaller bed lies ever less deep: our choice
 constexpr double bump_mm = .25; // height of the bed for e times the luminance: our choice, by photographs
 constexpr double bump_reach_mm = .25; // slopes between points twice as far apart show bumps of 1 mm best
 constexpr double slope_limit =
     .7; // no slope is steeper than 1.4, so that walls do not turn into mirrors of lights
-constexpr double soft_edge_mips = 3.5; // blurs the border of new skin by about 1 mm
+constexpr double soft_edge_mips = 3; // blurs the border of new skin by about 1 mm
+constexpr double patch_mips = 2.5;   // blurs the bed so that clot and slough come in patches with soft edges
 
 /// The day-0 position of a point of today.
 struct Origin
@@ -57,10 +60,11 @@ class Warping
             bed_shape = base::sample<2>(shape_, bed.uv, bed.mip);
         }
         if (today_.in_phases) {
-            const cv::Vec2d soft = base::sample<2>(shape_, border.uv, border.mip + soft_edge_mips);
-            border_shape[1] = std::lerp(border_shape[1], soft[1], today_.border_softness);
+            const cv::Vec2d soft = base::sample_smooth<2>(shape_, border.uv, border.mip + soft_edge_mips);
+            border_shape += today_.border_softness * (soft - border_shape);
+            const cv::Vec4d around = base::sample<4>(color_, border.uv, border.mip + patch_mips);
             const cv::Vec3d day0(color[0], color[1], color[2]),
-                turned = tinted(day0, today_.phase, bed_luminance_);
+                turned = tinted(day0, {around[0], around[1], around[2]}, today_.phase, bed_luminance_);
             for (int c = 0; c < 3; ++c)
                 color[c] = std::lerp(day0[c], turned[c], bed_shape[1]);
             color[3] *= std::lerp(today_.phase.rim, 1., border_shape[1]);
@@ -173,7 +177,9 @@ cv::Mat2f day0_shape(const Patch& patch)
 shared::Relief relief_parameters(const WoundDay& today, double texel_mm)
 {
     const bool as_tissue = today.in_phases; // else as in the paper: the hollow alone
-    return {.depth_scale = static_cast<float>(today.depth_scale),
+    // Granulation fills a wound before it closes, so that no miniature of its hollow remains.
+    const double filled = as_tissue ? base::smoothstep(0, filled_ratio, today.unhealed_ratio) : 1;
+    return {.depth_scale = static_cast<float>(today.depth_scale * filled),
             .scar_mm = as_tissue ? static_cast<float>(today.scar.height_mm) : 0.f,
             .texel_mm = static_cast<float>(texel_mm),
             .reach_texels = static_cast<float>(occlusion_reach_mm / texel_mm),

@@ -1,6 +1,7 @@
 #include "wound/depth.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -60,6 +61,14 @@ cv::Mat1f blur_inside(const cv::Mat1f& values, const cv::Mat1f& weight, double s
     cv::GaussianBlur(values.mul(weight), sum, {}, sigma, sigma, cv::BORDER_REPLICATE);
     cv::GaussianBlur(weight, mass, {}, sigma, sigma, cv::BORDER_REPLICATE);
     return sum / (mass + 1e-6F);
+}
+
+double depth_of_layer(double layer, const TissueThickness& tissue)
+{
+    if (layer < 0)
+        return layer * tissue.dermis;
+    return tissue.epidermis * std::min(layer, 1.) + tissue.dermis * std::clamp(layer - 1, 0., 1.) +
+           tissue.subcutis * std::clamp(layer - 2, 0., 1.);
 }
 
 } // namespace
@@ -130,22 +139,27 @@ cv::Mat1f depth_map(const cv::Mat3f& color, const cv::Mat1f& mask, double width_
     const TissueThickness& tissue = options.tissue;
     cv::Mat1f depth(mask.size());
     std::transform(lab.begin(), lab.end(), depth.begin(), [&](const cv::Vec3f& pixel) {
-        const double layer = layer_reached(pixel, skin);
-        return static_cast<float>(tissue.epidermis * std::min(layer, 1.) +
-                                  tissue.dermis * std::clamp(layer - 1, 0., 1.) +
-                                  tissue.subcutis * std::clamp(layer - 2, 0., 1.));
+        return static_cast<float>(depth_of_layer(layer_reached(pixel, skin), tissue));
     });
     cv::Mat1f weight;
     inside.convertTo(weight, CV_32F, 1 / 255.);
     depth = blur_inside(depth, weight, std::max(.14 * extent, 1.)); // one floor under clot and fibrin
 
-    const double wall_mm = std::min(.8, .08 * extent * texel_mm); // width of a steep wall, as of an excision
+    const double widest_mm = .16 * extent * texel_mm; // of a wall; leaves a floor
+    std::array<cv::Mat1f, 3> channels;
+    cv::split(lab, channels.data());
+    const cv::Mat1f lightness = blur_inside(channels[0], weight, std::max(.05 * extent, 1.));
+    const double mean_lightness = cv::mean(lightness, inside)[0];
     const double rim_mm = std::max(.12 * extent * texel_mm, 2 * texel_mm);
     for (int j = 0; j < depth.rows; ++j)
         for (int i = 0; i < depth.cols; ++i) {
             const double in_mm = std::max(inward(j, i) - .5, 0.) * texel_mm;
             const double out_mm = std::max(outward(j, i) - .5, 0.) * texel_mm;
-            const double wall = base::smoothstep(0, wall_mm, in_mm);
+            // A wall slopes over 1.5 times its height, over less where it is dark: a steep wall sees less
+            // light.
+            const double gentle = std::clamp((double(lightness(j, i)) - mean_lightness) / 12, -1., 1.);
+            const double wall_mm = std::min(1.5 * depth(j, i), widest_mm) * (1 + .6 * gentle);
+            const double wall = base::smoothstep(0, std::max(wall_mm, 1e-3), in_mm);
             // The rim rises within a third of its width and falls off smoothly over the rest.
             const double rim =
                 base::smoothstep(0, rim_mm / 3, out_mm) * (1 - base::smoothstep(rim_mm / 3, rim_mm, out_mm));
@@ -153,6 +167,20 @@ cv::Mat1f depth_map(const cv::Mat3f& color, const cv::Mat1f& mask, double width_
                                        : static_cast<float>(-options.rim_swelling_mm * rim);
         }
     return depth;
+}
+
+cv::Mat1f depth_of_layers(const cv::Mat1f& layer, const TissueThickness& tissue)
+{
+    cv::Mat1f depth(layer.size());
+    std::ranges::transform(layer, depth.begin(),
+                           [&](float one) { return static_cast<float>(depth_of_layer(one, tissue)); });
+    return depth;
+}
+
+cv::Mat1f depth_of(const Patch& patch, const DepthOptions& options)
+{
+    return patch.layer.empty() ? depth_map(patch.color, patch.mask, patch.width_mm, options)
+                               : depth_of_layers(patch.layer, options.tissue);
 }
 
 std::vector<double> depth_profile(const cv::Mat1f& depth_mm, cv::Point2d at)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wound/optics/skin_presets.hpp"
+#include "wound/patch.hpp"
 
 namespace wound {
 
@@ -37,11 +38,17 @@ struct DepthOptions
     double rim_swelling_mm = .3; // height of the swollen rim just outside the border
 };
 
-/// Depth of missing tissue in mm, of the size of `mask`: smooth floor, steep walls inside the border, a
-/// swollen rim (negative) outside it and 0 farther away. `color` is linear RGB, `mask` coverage 0..1; both
-/// are `width_mm` wide.
+/// Depth of missing tissue in mm, of the size of `mask`: smooth floor, walls inside the border that
+/// slope over about 1.5 times their height, unevenly, a swollen rim (negative) outside it and 0 farther away.
+/// `color` is linear RGB, `mask` coverage 0..1; both are `width_mm` wide.
 cv::Mat1f depth_map(const cv::Mat3f& color, const cv::Mat1f& mask, double width_mm,
                     const DepthOptions& options);
+
+/// The same of known layers (Photograph::layer).
+cv::Mat1f depth_of_layers(const cv::Mat1f& layer, const TissueThickness& tissue);
+
+/// Depth of a patch: of its layers where they are known, else judged from its colour by depth_map().
+cv::Mat1f depth_of(const Patch& patch, const DepthOptions& options);
 
 /// Depth in mm along the horizontal line through `at` (patch coordinates), one value per texel; as in the
 /// paper's Figure 5.

@@ -12,6 +12,9 @@ struct Photograph
     cv::Mat3b srgb;         // RGB order
     cv::Mat1b mask;         // 255 in the wound; empty: to be segmented
     cv::Mat1b other_wounds; // 255 in wounds that are prepared separately; empty: none
+    /// The layer of the skin that is open, as layer_reached(); negative: raised by that many thicknesses of
+    /// the dermis. Known for generated wounds; empty: judged from the colour.
+    cv::Mat1f layer;
 };
 
 /// The wound at day 0 as square maps of equal size (default 512 x 512) over `width_mm` of skin.
@@ -25,6 +28,7 @@ struct Patch
     double width_mm = 0; // of the whole patch, on the head
     /// Whether it shows healthy skin; if not, prepare() uses average_skin (wound/photo/healthy_skin.hpp).
     bool shows_skin = true;
+    cv::Mat1f layer; // Photograph::layer; may be empty
 };
 
 } // namespace wound

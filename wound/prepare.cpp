@@ -185,9 +185,12 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
     const double shrink = std::min(1., finest * preparation.patch_size / side);
     cv::Mat3b srgb = photograph.srgb;
     cv::Mat1b working_mask = mask;
+    cv::Mat1f layer = photograph.layer;
     if (shrink < 1) {
         cv::resize(photograph.srgb, srgb, {}, shrink, shrink, cv::INTER_AREA);
         cv::resize(mask, working_mask, srgb.size(), 0, 0, cv::INTER_AREA);
+        if (!layer.empty())
+            cv::resize(photograph.layer, layer, srgb.size(), 0, 0, cv::INTER_AREA);
     }
     const cv::Point2d center = (centroid + cv::Point2d(.5, .5)) * shrink - cv::Point2d(.5, .5);
     const Resampling resample(center, side * shrink, preparation.patch_size);
@@ -197,6 +200,8 @@ PreparedWound prepare(const Photograph& photograph, const Preparation& preparati
     Patch patch;
     patch.color = resample(base::linear_from_srgb(srgb), cv::BORDER_REPLICATE);
     patch.mask = resample_mask(working_mask, resample);
+    if (!layer.empty())
+        patch.layer = resample(layer, cv::BORDER_CONSTANT);
     cv::Mat1f others;
     if (!photograph.other_wounds.empty()) {
         cv::Mat1b working = photograph.other_wounds;
@@ -243,7 +248,8 @@ std::vector<WoundPart> separate(const Photograph& photograph, const Preparation&
     for (const cv::Mat1b& mask : masks) {
         checked_mask(mask, photograph.srgb.size(), where);
         const PhotoFrame frame = photo_frame(mask);
-        parts.push_back({{photograph.srgb, mask, masks.size() > 1 ? cv::Mat1b(all & ~mask) : cv::Mat1b()},
+        parts.push_back({{photograph.srgb, mask, masks.size() > 1 ? cv::Mat1b(all & ~mask) : cv::Mat1b(),
+                          photograph.layer},
                          std::max(frame.side * wound_share * mm_per_pixel, least_width_mm),
                          (frame.centroid - first.centroid) * mm_per_pixel});
     }
@@ -267,8 +273,7 @@ PreparedWound prepare_patch(Patch patch, const Preparation& preparation, bool ke
     PreparedWound wound;
     wound.patch = std::move(patch);
     if (!keep_depth)
-        wound.patch.depth_mm =
-            depth_map(wound.patch.color, wound.patch.mask, wound.patch.width_mm, preparation.depth);
+        wound.patch.depth_mm = depth_of(wound.patch, preparation.depth);
     const Moments moments = moments_of(wound.patch.mask);
     wound.centroid = moments.centroid;
     wound.area = moments.area;
@@ -301,7 +306,7 @@ WoundDay wound_at(const PreparedWound& wound, const Healing& healing, double day
             result.border_recovery = 1 - (1 - result.border_recovery) * scar.redness / scar_after(0).redness;
         result.border_softness = std::min(5 * state.recovery_ratio, 1.);
         result.in_phases = true;
-        result.phase = phase_at(day, closure_day(healing.curve));
+        result.phase = phase_at(day, closure_day(healing.curve), healing.age_days);
     }
     result.bed_presence =
         base::smoothstep(static_cast<float>(smallest_scale * smallest_scale),

@@ -9,7 +9,7 @@ namespace wound {
 
 namespace {
 
-constexpr double inflamed_mm = .5; // the inflamed rim is as red as a covered injury of this depth
+constexpr double inflamed_mm = .25; // the inflamed rim is as red as a covered injury of this depth
 
 base::Color reflectance(const WoundLook& wound, shared::uint part, double injury_mm)
 {

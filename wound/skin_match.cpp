@@ -277,7 +277,8 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
 {
     Source source = checked(patch);
     const int n = source.color.rows;
-    Patch result{cv::Mat3f(n, n), cv::Mat1f(n, n), patch.mask, patch.depth_mm, patch.width_mm, true};
+    Patch result{cv::Mat3f(n, n), cv::Mat1f(n, n), patch.mask, patch.depth_mm,
+                 patch.width_mm,  true,            patch.layer};
 
     remove_highlights(source.color, source.coverage, source.radius);
     cv::Mat3f log_photo;
@@ -307,7 +308,7 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
             const float in_bed = base::smoothstep(.1f, .9f, border(y, x));
-            const float around = skin.found ? 1 - base::smoothstep(.40f, .90f, outwardness(y, x)) : 0;
+            const float around = skin.found ? 1 - base::smoothstep(.22f, .90f, outwardness(y, x)) : 0;
             result.opacity(y, x) = std::max(in_bed, around) * present(valid_around, x, y);
             const float raw = in_bed * rawness(y, x) + (1 - in_bed) * foreignness(y, x);
             log_photo(y, x) += (gain(y, x) + detail(y, x) * health(y, x)) * (1 - raw) + bed * raw;

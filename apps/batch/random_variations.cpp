@@ -3,6 +3,7 @@
 #include <random>
 
 #include "apps/batch/variations.hpp"
+#include "wound/synthetic/kind.hpp"
 
 namespace batch_command {
 namespace {
@@ -53,12 +54,11 @@ std::string random_variations(const RandomVariations& options)
     std::string table = "name";
     if (!options.heads.empty())
         table += ",head";
-    table += options.photos.empty() ? ",wounds.0.kind,wounds.0.seed" : ",wounds.0.photo";
     table +=
-        ",wounds.0.at,wounds.0.width_mm,wounds.0.roll_deg,wounds.0.depth_factor,wounds.0.healing.delta,days,"
-        "tissue,lights.0.azimuth_deg,lights.0.elevation_deg,lights.0.intensity,lights.1.intensity,"
-        "camera.azimuth_deg,camera.elevation_deg,exposure_stops\n";
-    const std::array kinds{"abrasion", "abrasion", "laceration", "avulsion"};
+        options.photos.empty() ? ",wounds.0.kind,wounds.0.seed" : ",wounds.0.photo,wounds.0.healing.delta";
+    table += ",wounds.0.at,wounds.0.width_mm,wounds.0.roll_deg,wounds.0.depth_factor,days,"
+             "tissue,lights.0.azimuth_deg,lights.0.elevation_deg,lights.0.intensity,lights.1.intensity,"
+             "camera.azimuth_deg,camera.elevation_deg,exposure_stops\n";
     const std::array tissues{"light", "medium", "dark"};
     // One cell at a time: the order of evaluation of function arguments is unspecified.
     const auto number = [&](double low, double high, int digits) {
@@ -69,10 +69,14 @@ std::string random_variations(const RandomVariations& options)
         if (!options.heads.empty())
             table += "," + quoted(dice.one_of(options.heads));
         if (options.photos.empty()) {
-            table += fmt::format(",{}", dice.one_of(kinds));
+            table += fmt::format(",{}", dice.one_of(wound::kind_names()));
             table += fmt::format(",{}", dice.below(1u << 31));
-        } else
+        } else {
             table += "," + quoted(dice.one_of(options.photos));
+            // Half closed after 6 to 12 days: slower to faster than is typical of a face. Default wounds
+            // close by kind.
+            table += fmt::format(",{:.4f}", std::log(2) / std::pow(dice.between(6, 12), 1.5));
+        }
         const Area& area = dice.one_of(areas);
         const double side = dice.below(2) == 0 ? -1 : 1;
         const double x = side * (area.x + dice.between(-area.spread, area.spread));
@@ -81,8 +85,6 @@ std::string random_variations(const RandomVariations& options)
         number(area.narrowest_mm, area.widest_mm, 1);
         number(-180, 180, 0);
         number(.5, 1.6, 2);
-        // The wound is half closed after 6 to 12 days: slower to faster than is typical of a face.
-        table += fmt::format(",{:.4f}", std::log(2) / std::pow(dice.between(6, 12), 1.5));
         table += fmt::format(",{}", dice.below(31));
         table += fmt::format(",{}", dice.one_of(tissues));
         number(-65, 65, 0);

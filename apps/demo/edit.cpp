@@ -137,8 +137,9 @@ scene::Wound next_wound(const scene::Scene& scene)
     }))
         ++wound.seed;
     wound.width_mm = 24;
+    wound.healing = scene::usual_healing(wound);
     if (!scene.wounds.empty())
-        wound.healing = scene.wounds.front().healing;
+        wound.healing.model = scene.wounds.front().healing.model;
     return wound;
 }
 

@@ -64,6 +64,9 @@ void DemoWindow::apply_edits()
 void DemoWindow::show_scene()
 {
     try {
+        const std::vector<scene::Wound>& shown = stage_->scene().wounds;
+        for (std::size_t i = 0; shown.size() == state_.scene.wounds.size() && i < shown.size(); ++i)
+            scene::follow_usual_course(shown[i], state_.scene.wounds[i]);
         if (state_.scene != stage_->scene())
             stage_->update(state_.scene);
         if (stage_->poll())

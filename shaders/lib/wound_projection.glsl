@@ -62,7 +62,7 @@ vec3 tissue_reflectance(WoundFrame w, sampler2D lut, uint part, float injury_mm)
     return textureLod(lut, lut_uv(w.lut, part, injury_mm, w.day, vec2(textureSize(lut, 0))), 0).rgb;
 }
 
-const float INFLAMED_MM = 0.5; // the inflamed rim has the colour of a covered injury of this depth
+const float INFLAMED_MM = 0.25; // the inflamed rim has the colour of a covered injury of this depth
 
 // The face's skin, changed by a covered injury: multiplied by the table's colour over its colour without
 // injury.

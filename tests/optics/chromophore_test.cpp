@@ -174,11 +174,11 @@ TEST(HealingTimeline, TheScarFadesTowardsSkin)
         const base::Color scar =
             fast_color(optics::layers_at(optics::covered_bed(light, 21 + 30.44 * months, 21), 1));
         const double excess = base::lab_from_linear(scar).a - intact.a;
-        EXPECT_GT(excess, 0);
+        EXPECT_GT(excess, months < 24 ? 0 : -1);
         EXPECT_LT(excess, before);
         before = excess;
     }
-    EXPECT_LT(before, 4);
+    EXPECT_NEAR(before, 0, 1) << "an old scar may be a little paler than skin, as its collagen is denser";
 }
 
 TEST(HealingTimeline, ColourHasNoStepFromDayToDay)

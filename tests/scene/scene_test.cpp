@@ -48,6 +48,55 @@ TEST_F(SceneFile, EmptyObjectIsTheDefaultScene)
     EXPECT_EQ(scene::to_json(read("{}")), scene::to_json(scene::Scene{}));
 }
 
+TEST_F(SceneFile, AWoundClosesAsItsKindDoesWhereTheSceneSaysNothingOfTheCurve)
+{
+    EXPECT_EQ(scene::Wound{}.healing, scene::usual_healing({}));
+    const auto closed = [&](const char* text) {
+        return wound::closure_day(read(text).wounds.at(0).healing.curve);
+    };
+    const double day = closed(R"({"wounds": [{"kind": "abrasion"}]})");
+    EXPECT_NEAR(day, 10, 2);
+    EXPECT_EQ(closed(R"({"wounds": [{"kind": "abrasion", "healing": {"model": "contraction"}}]})"), day);
+    EXPECT_EQ(closed(R"({"healing": {"residual_border": 0.5}, "wounds": [{"kind": "abrasion"}]})"), day);
+    const double usual = wound::closure_day({});
+    EXPECT_EQ(closed(R"({"wounds": [{"kind": "abrasion", "healing": {"gamma": 1.5}}]})"), usual);
+    EXPECT_EQ(closed(R"({"healing": {"delta": 0.02822}, "wounds": [{"kind": "abrasion"}]})"), usual);
+    EXPECT_GT(closed(R"({"wounds": [{"width_mm": 60}]})"), 1.2 * usual);
+    EXPECT_GT(closed(R"({"wounds": [{"at": "forehead"}]})"), 1.01 * usual);
+}
+
+TEST_F(SceneFile, AUsualCourseIsNotWrittenSoThatItFollowsTheKind)
+{
+    nlohmann::json written = scene::to_json(read(R"({"wounds": [{"kind": "ulcer"}]})"));
+    EXPECT_EQ(written["wounds"][0]["healing"], (nlohmann::json{{"model", "face"}}));
+    written["wounds"][0]["kind"] = "abrasion";
+    EXPECT_NEAR(wound::closure_day(scene::scene_of(written, "s.json", "s").wounds[0].healing.curve), 10, 2);
+    written = scene::to_json(read(R"({"wounds": [{"kind": "ulcer", "healing": {"delta": 0.1}}]})"));
+    EXPECT_EQ(written["wounds"][0]["healing"]["delta"], .1);
+}
+
+TEST(UsualCourse, FollowsAnEditOfTheWoundUnlessItWasEditedItself)
+{
+    const scene::Wound before;
+    scene::Wound edited = before;
+    edited.kind = "abrasion";
+    scene::follow_usual_course(before, edited);
+    EXPECT_EQ(edited.healing, scene::usual_healing(edited));
+    scene::Wound own = before;
+    own.healing.curve.delta = .1;
+    edited = own;
+    edited.kind = "abrasion";
+    scene::follow_usual_course(own, edited);
+    EXPECT_EQ(edited.healing, own.healing);
+    scene::Wound contracting = before;
+    contracting.healing.model = wound::HealingModel::Contraction;
+    edited = contracting;
+    edited.photo = "photo.png";
+    scene::follow_usual_course(contracting, edited);
+    EXPECT_EQ(edited.healing.curve, wound::H3{});
+    EXPECT_EQ(edited.healing.model, wound::HealingModel::Contraction);
+}
+
 TEST_F(SceneFile, AreasGiveTheHealingCurveAndWoundsInheritTheScenesHealing)
 {
     folder_.with("areas.csv",
@@ -78,7 +127,7 @@ TEST_F(SceneFile, WhatIsWrittenReadsBackAsTheSameScene)
     scene.wounds.resize(3);
     scene.wounds[0].place = head::FacePoint{0.25, -0.5};
     scene.wounds[1].place = glm::dvec3(0.01, 0.02, 0.03);
-    scene.wounds[1].kind = "avulsion";
+    scene.wounds[1].kind = "abrasion";
     scene.wounds[1].seed = 4294967295u;
     scene.wounds[2].photo = folder_ / "photo.jpg";
     scene.wounds[2].mask = folder_ / "mask.png";
@@ -133,7 +182,7 @@ TEST_F(SceneFile, EachMistakeNamesFileAndField)
         {R"({"wounds": [{"width_mm": "wide"}]})", "/wounds/0/width_mm"},
         {R"({"wounds": [{"seed": 1.5}]})", "/wounds/0/seed"},
         {R"({"wounds": [{"seed": -1}]})", "/wounds/0/seed"},
-        {R"({"wounds": [{"kind": "burn"}]})", "/wounds/0/kind"},
+        {R"({"wounds": [{"kind": "bite"}]})", "/wounds/0/kind"},
         {R"({"wounds": [{"at": [1]}]})", "/wounds/0/at"},
         {R"({"wounds": [{"at": [1, 99]}]})", "/wounds/0/at"},
         {R"({"wounds": [{"mask": "m.png"}]})", "/wounds/0/mask"},

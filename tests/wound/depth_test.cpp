@@ -1,6 +1,7 @@
 // Tissue thickness over the face, layers from hue, and the depth map's shape.
 #include "wound/depth.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
@@ -87,7 +88,19 @@ TEST(Tissue, HueGivesTheLayer)
     EXPECT_LE(wound::layer_reached(lab({1, 1, 1}), skin), 3);
 }
 
-TEST(Depth, RedBedIsAsDeepAsTheDermisWithSteepWallsAndFlatFloor)
+/// Slope of the wall of disk(.45) over the middle half of `deep` mm; `side`: 1 right, -1 left.
+double slope_of_wall(const cv::Mat1f& depth, float deep, int side)
+{
+    const auto distance_to = [&](float share) { // texels from the middle outwards to where it is so deep
+        int texels = map_size / 2 - 1;
+        while (depth(map_size / 2, map_size / 2 + side * texels) < share * deep)
+            --texels;
+        return texels;
+    };
+    return .5 * deep / (std::max(distance_to(.25F) - distance_to(.75F), 1) * patch_width_mm / map_size);
+}
+
+TEST(Depth, RedBedIsAsDeepAsTheDermisWithSlopingWallsAndFlatFloor)
 {
     const cv::Mat1f mask = disk(.45);
     wound::DepthOptions options;
@@ -97,8 +110,18 @@ TEST(Depth, RedBedIsAsDeepAsTheDermisWithSteepWallsAndFlatFloor)
     EXPECT_LT(middle, .2 + options.tissue.dermis + options.tissue.subcutis);
     const int edge = map_size / 2 + static_cast<int>(.45 * map_size / 2); // the last texel inside
     EXPECT_NEAR(depth(map_size / 2, edge - 30), middle, .1 * middle);     // floor
-    EXPECT_LT(depth(map_size / 2, edge), .2 * middle); // wall: all of it within .8 mm, which is 3.4 texels
-    EXPECT_GT(depth(map_size / 2, edge - 5), .9 * middle);
+    EXPECT_LT(depth(map_size / 2, edge), .2 * middle);
+    EXPECT_NEAR(slope_of_wall(depth, middle, 1), 1, .35) << "a smoothstep over 1.5 times the depth";
+}
+
+TEST(Depth, WallsAreSteeperWhereTheyAreDarker)
+{
+    const cv::Mat1f mask = disk(.45);
+    cv::Mat3f color = painted(mask, blood_color);
+    color(cv::Rect(0, 0, map_size / 2, map_size)) *= .6; // in shadow; so is the skin there
+    const cv::Mat1f depth = wound::depth_map(color, mask, patch_width_mm, {});
+    const float middle = depth(map_size / 2, map_size / 2);
+    EXPECT_GT(slope_of_wall(depth, middle, -1), 1.4 * slope_of_wall(depth, middle, 1));
 }
 
 TEST(Depth, RimIsSwollenAndSkinFarAwayIsUntouched)

@@ -22,7 +22,7 @@ TEST(Phases, ShowThePhotographItselfOnDayZero)
         const Phase phase = phase_at(0, 25, age);
         EXPECT_EQ(phase.rim, 1);
         for (const Vec3d& color : {red, dark, pale})
-            EXPECT_EQ(tinted(color, phase, bed), color) << "age " << age;
+            EXPECT_EQ(tinted(color, color, phase, bed), color) << "age " << age;
     }
 }
 
@@ -70,14 +70,14 @@ TEST(Phases, TintDarkAsClotPaleAsFibrinAndEverythingAsGranulation)
 {
     const Phase clotted{.5, 0, 0, 1}, yellow{0, .4, 0, 1}, granulating{0, 0, 1, 1};
     const auto change = [](const Vec3d& color, const Phase& phase) {
-        return cv::norm(tinted(color, phase, bed) - color) / cv::norm(color);
+        return cv::norm(tinted(color, color, phase, bed) - color) / cv::norm(color);
     };
     EXPECT_GT(change(dark, clotted), .3);
     EXPECT_LT(change(pale, clotted), .01);
     EXPECT_LT(change(dark, yellow), .01);
-    EXPECT_GT(tinted(pale, yellow, bed)[0] / tinted(pale, yellow, bed)[2], pale[0] / pale[2]);
+    EXPECT_GT(tinted(pale, pale, yellow, bed)[0] / tinted(pale, pale, yellow, bed)[2], pale[0] / pale[2]);
     for (const Vec3d& color : {red, dark, pale}) {
-        const Vec3d result = tinted(color, granulating, bed);
+        const Vec3d result = tinted(color, color, granulating, bed);
         EXPECT_GT(result[0], 2.5 * result[1]);
     }
 }
@@ -87,7 +87,7 @@ TEST(Phases, GiveNoNaNAndNoNegativeColour)
     for (const Vec3d& color : {Vec3d(0, 0, 0), Vec3d(1, 1, 1), Vec3d(0, 1, 0), Vec3d(1e-30, 0, 0)})
         for (double luminance : {0., 1e-30, .1, 1.})
             for (double day = 0; day < 30; day += .7) {
-                const Vec3d result = tinted(color, phase_at(day, 25), luminance);
+                const Vec3d result = tinted(color, color, phase_at(day, 25), luminance);
                 for (int k = 0; k < 3; ++k)
                     ASSERT_TRUE(result[k] >= 0 && result[k] <= 1);
             }

@@ -20,6 +20,15 @@ void require(double value, double low, double high, std::string_view where, std:
 
 } // namespace
 
+H3 curve_through(double half_day, double closed_day)
+{
+    // exp(-delta t^gamma) = 1/2 and closed_ratio at the two days.
+    H3 curve;
+    curve.gamma = std::log(-std::log(closed_ratio) / std::log(2)) / std::log(closed_day / half_day);
+    curve.delta = std::log(2) / std::pow(half_day, curve.gamma);
+    return curve;
+}
+
 void validate(const Healing& healing, std::string_view where)
 {
     require(healing.curve.delta, 0, 10, where, "healing.delta");
@@ -27,6 +36,7 @@ void validate(const Healing& healing, std::string_view where)
     require(healing.curve.theta, -1, 1, where, "healing.theta");
     require(healing.curve.asymptote, 0, .99, where, "healing.asymptote");
     require(healing.residual_border, 0, 1, where, "healing.residual_border");
+    require(healing.age_days, 0, 1000, where, "healing.age_days");
 }
 
 double unhealed_ratio(const H3& curve, double day)

@@ -22,6 +22,10 @@ struct H3
     bool operator==(const H3&) const = default;
 };
 
+/// The H3 with theta 0 that is half closed on `half_day` and down to closed_ratio on `closed_day`.
+/// 0 < half_day; 1.61 half_day <= closed_day <= 44 half_day.
+H3 curve_through(double half_day, double closed_day);
+
 enum class HealingModel
 {
     Contraction, // the border itself closes, as in the paper and in mice
@@ -34,6 +38,7 @@ struct Healing
     HealingModel model = HealingModel::Face;
     double residual_border = .43; // area inside the border at closure / initial area; Face only. Contraction
                                   // closes at least 57 % of a facial wound
+    double age_days = 0; // 0..1000: of the wound on day 0; the phases of these days are over. Face only
     bool operator==(const Healing&) const = default;
 };
 

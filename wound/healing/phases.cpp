@@ -33,12 +33,12 @@ double along(const std::array<Knot, count>& knots, double day)
 
 // Courses in days of a wound that closes on day 25.
 constexpr double early_days = 5, closing_days = 25;
-constexpr std::array<Knot, 5> clot_course{{{0, 0}, {1.2, .62}, {2.5, .50}, {6, .06}, {9, 0}}};
+constexpr std::array<Knot, 5> clot_course{{{0, 0}, {1.5, .42}, {3, .34}, {6, .06}, {9, 0}}};
 constexpr std::array<Knot, 5> fibrin_course{{{.8, 0}, {3, .36}, {4.5, .36}, {8, .05}, {12, 0}}};
-constexpr std::array<Knot, 4> granulation_course{{{2.5, 0}, {6, .55}, {10, .9}, {13, 1}}};
+constexpr std::array<Knot, 4> granulation_course{{{2.5, 0}, {5, .45}, {8, .85}, {11, 1}}};
 constexpr std::array<Knot, 4> rim_course{{{0, 1}, {3, 1}, {12, .55}, {25, .15}}};
 
-const Vec3d clot_color{.055, .012, .009}, fibrin_color{.52, .35, .15}, granulation_color{.37, .045, .042};
+const Vec3d clot_color{.085, .014, .011}, fibrin_color{.54, .39, .20}, granulation_color{.37, .045, .042};
 
 /// 0..1: how far a texel has changed when `share` of the bed has; texels of `rank` 1 change first, of 0 last.
 double changed(double share, double rank)
@@ -67,7 +67,10 @@ Phase phase_at(double day, double closure_day, double age_days)
     const auto since_photo = [&](const auto& course) {
         return std::max(along(course, now) - along(course, then), 0.);
     };
-    return {since_photo(clot_course), since_photo(fibrin_course), since_photo(granulation_course),
+    // All of a photographed slough granulates in the end, but a bed that had granulated by then changes little.
+    constexpr double least_left = .25;
+    const double left = std::max(1 - along(granulation_course, then), least_left);
+    return {since_photo(clot_course), since_photo(fibrin_course), since_photo(granulation_course) / left,
             along(rim_course, now) / along(rim_course, then)};
 }
 
@@ -97,15 +100,20 @@ double bed_luminance(const Patch& patch)
     return *middle;
 }
 
-cv::Vec3d tinted(const cv::Vec3d& color, const Phase& phase, double bed_luminance)
+cv::Vec3d tinted(const cv::Vec3d& color, const cv::Vec3d& around, const Phase& phase, double bed_luminance)
 {
-    const double light = std::max(double(base::luminance(color)), 1e-4) / std::max(bed_luminance, 1e-4);
-    const double paleness = std::clamp(.5 + .25 * std::log2(light), 0., 1.); // 1/4 .. 4 times the median
-    const double redness = std::clamp(1 - 2 * color[1] / std::max(color[0], 1e-4), 0., 1.);
-    const double relief = std::sqrt(std::clamp(light, .35, 1.8)); // keeps the photograph's texture visible
-    Vec3d result = mix(color, clot_color * relief, .9 * changed(phase.clot, 1 - paleness));
-    result = mix(result, fibrin_color * relief, .8 * changed(phase.fibrin, paleness));
-    return mix(result, granulation_color * relief, .65 * changed(phase.granulation, redness));
+    const auto light_of = [&](const cv::Vec3d& c) { // relative to the bed's median
+        return std::max(double(base::luminance(c)), 1e-4) / std::max(bed_luminance, 1e-4);
+    };
+    // 0..1 for 1/4 .. 4 times the median.
+    const double paleness = std::clamp(.5 + .25 * std::log2(light_of(around)), 0., 1.);
+    const double redness = std::clamp(1 - 2 * around[1] / std::max(around[0], 1e-4), 0., 1.);
+    // Keeps the photograph's texture visible.
+    const double relief = std::sqrt(std::clamp(light_of(color), .35, 1.8));
+    Vec3d result = mix(color, clot_color * relief, .8 * changed(phase.clot, 1 - paleness));
+    // Clean red beds stay so.
+    result = mix(result, fibrin_color * relief, .65 * changed(phase.fibrin, paleness * (1 - .5 * redness)));
+    return mix(result, granulation_color * relief, .72 * changed(phase.granulation, redness));
 }
 
 } // namespace wound

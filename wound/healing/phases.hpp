@@ -16,7 +16,7 @@ namespace wound {
 struct Phase
 {
     double clot = 0;        // dark and dried, the darkest texels first
-    double fibrin = 0;      // yellow slough or crust, the palest texels first
+    double fibrin = 0;      // yellow slough, the palest texels that are not red first
     double granulation = 0; // even red tissue, the reddest texels first
     double rim = 1;         // factor on the patch's opacity outside the mask: the inflamed halo fades
 };
@@ -37,7 +37,8 @@ PhaseDays phase_days(double closure_day);
 /// Median luminance of the open bed, the reference for dark and pale texels. 0 if the mask is empty.
 double bed_luminance(const Patch& patch);
 
-/// Linear colour of a bed texel at that phase.
-cv::Vec3d tinted(const cv::Vec3d& color, const Phase& phase, double bed_luminance);
+/// Linear colour of a bed texel at that phase. `around`: the bed's mean colour near the texel, which decides what
+/// it turns into, so that patches have soft edges.
+cv::Vec3d tinted(const cv::Vec3d& color, const cv::Vec3d& around, const Phase& phase, double bed_luminance);
 
 } // namespace wound

@@ -9,9 +9,9 @@ namespace wound {
 
 namespace {
 
-constexpr double highest_mm = .35; // at highest_month
+constexpr double highest_mm = .25; // at highest_month
 constexpr double highest_month = 2.5;
-constexpr double sunken_mm = .1; // final depth below the skin
+constexpr double sunken_mm = .06; // final depth below the skin
 
 } // namespace
 

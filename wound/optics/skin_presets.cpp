@@ -80,10 +80,15 @@ double scar_blood(double skin_blood, double day, double closure_day)
     return std::lerp(granulation.blood, scar, std::min(day / closure_day, 1.0));
 }
 
+// Collagen of new tissue lies in dense parallel bundles, which scatter more than the dermis. Its many vessels
+// carry little-used blood. Our choice, so that a scar is red rather than brown in its first months and ends as
+// light as the skin (docs/optics.md, section 6).
 Layer scar_tissue(const ChromophoreSkin& skin, double day, double closure_day)
 {
     Chromophores content = skin.dermis;
     content.blood = scar_blood(skin.dermis.blood, day, closure_day);
+    content.oxygenation = std::lerp(.97, skin.dermis.oxygenation, skin.dermis.blood / content.blood);
+    content.scattering_500nm *= 1.3;
     return dermis_layer("scar", content, 0);
 }
 

@@ -99,6 +99,14 @@ cv::Mat3f coarse(const cv::Mat3f& lab, int size)
     return result;
 }
 
+/// Factor on the contrast beside skin of that lightness: in shade and on dark skin all differences of colour shrink
+/// with the light that comes back.
+float in_full_light(float lightness)
+{
+    constexpr float lit = 60, most = 1.5F; // CIELAB; noise does not shrink, so the factor has a limit
+    return std::clamp(std::sqrt(lit / std::max(lightness, 1.F)), 1.F, most);
+}
+
 /// Mean contrast of a border times the cube of its closed share; 0 if the picture's edge is near more than
 /// most_cut of it. Outside the border must be skin; points where the body ends (a wound at a limb's edge) are
 /// neither closed nor open.
@@ -126,7 +134,8 @@ double border_score(const Picture& picture, const Outline& outline, double area)
             ++beside_body;
         else if (frame.contains(in)) {
             const cv::Vec3f step = picture.lab(in) - picture.lab(out);
-            const float contrast = std::max(step[1], 0.F) + .5F * std::max(-step[0], 0.F);
+            const float contrast =
+                (std::max(step[1], 0.F) + .5F * std::max(-step[0], 0.F)) * in_full_light(picture.lab(out)[0]);
             contrasts.push_back(std::clamp(contrast - uneven_skin, 0.F, strongest) * picture.skin(out));
             sum += contrasts.back();
         }

@@ -20,7 +20,7 @@ const Vec3f to_light{-.45f, -.55f, .70f}; // length 1 within .01; the camera loo
 struct Surface
 {
     cv::Mat3f reflectance;
-    cv::Mat1f height_mm, wetness;
+    cv::Mat1f layer, height_mm, wetness;
 };
 
 /// The slow fields at every `slow_step`th pixel, one more row and column than needed to interpolate; sets the
@@ -43,24 +43,13 @@ cv::Mat_<SlowFields> slow_grid(TissuePainter& painter, const cv::Mat1f& distance
     return grid;
 }
 
-/// Place::facing_light.
-float facing_light(const cv::Mat1f& distance, int x, int y)
-{
-    const int left = std::max(x - 1, 0), right = std::min(x + 1, distance.cols - 1);
-    const int above = std::max(y - 1, 0), below = std::min(y + 1, distance.rows - 1);
-    const cv::Point2f inwards{distance(y, right) - distance(y, left),
-                              distance(below, x) - distance(above, x)};
-    const float length =
-        std::sqrt(inwards.dot(inwards) * (to_light[0] * to_light[0] + to_light[1] * to_light[1]));
-    return (inwards.x * to_light[0] + inwards.y * to_light[1]) / (length + 1e-6f);
-}
-
-Surface paint(const SyntheticWound& wound, const Noise& noise, const cv::Mat1f& distance)
+Surface paint(const WoundKind& kind, const SyntheticWound& wound, const Noise& noise,
+              const cv::Mat1f& distance)
 {
     const int n = wound.size;
-    TissuePainter painter(wound, noise);
+    TissuePainter painter(kind, wound, noise);
     const cv::Mat_<SlowFields> grid = slow_grid(painter, distance);
-    Surface surface{cv::Mat3f(n, n), cv::Mat1f(n, n), cv::Mat1f(n, n)};
+    Surface surface{cv::Mat3f(n, n), cv::Mat1f(n, n), cv::Mat1f(n, n), cv::Mat1f(n, n)};
     cv::parallel_for_({0, n}, [&](const cv::Range& rows) {
         std::vector<SlowFields> row(std::size_t(grid.cols));
         for (int y = rows.start; y < rows.end; ++y) {
@@ -70,9 +59,10 @@ Surface paint(const SyntheticWound& wound, const Noise& noise, const cv::Mat1f& 
             for (int x = 0; x < n; ++x) {
                 const float u = float(x % slow_step) / slow_step;
                 const SlowFields slow = row[x / slow_step] * (1 - u) + row[x / slow_step + 1] * u;
-                const Tissue tissue = painter.at({synthetic_position_mm(float(x), float(y), n),
-                                                  distance(y, x), facing_light(distance, x, y), slow});
+                const Tissue tissue =
+                    painter.at({synthetic_position_mm(float(x), float(y), n), distance(y, x), slow});
                 surface.reflectance(y, x) = tissue.reflectance;
+                surface.layer(y, x) = tissue.layer;
                 surface.height_mm(y, x) = tissue.height_mm;
                 surface.wetness(y, x) = tissue.wetness;
             }
@@ -148,9 +138,9 @@ Photograph synthesize(const SyntheticWound& wound)
     const WoundKind& kind = kind_named(wound.kind);
     const Noise noise(hash(wound.seed, int(&kind - wound_kinds().data()), 0));
     const cv::Mat1f distance = outline_distance(kind, wound, noise);
-    Surface surface = paint(wound, noise, distance);
+    Surface surface = paint(kind, wound, noise, distance);
     light(surface);
-    return {develop(surface.reflectance, wound.seed + 9), distance > 0};
+    return {develop(surface.reflectance, wound.seed + 9), distance > 0, {}, surface.layer};
 }
 
 } // namespace wound

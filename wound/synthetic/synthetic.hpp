@@ -13,10 +13,8 @@ namespace wound {
 
 struct SyntheticWound
 {
-    std::string kind = "abrasion"; // one of kind_names()
+    std::string kind = "avulsion"; // one of kind_names()
     std::uint32_t seed = 1;
-    float clot = .2f;              // fraction of the open bed, 0..1
-    float fibrin = .22f;           // fraction of the open bed, 0..1
     cv::Vec3b skin{212, 164, 140}; // mean sRGB colour of the healthy skin
     int size = 512;                // px, width and height, 64 or more
 };
