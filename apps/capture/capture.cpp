@@ -5,6 +5,7 @@
 #include <future>
 #include <optional>
 
+#include "apps/capture/gallery.hpp"
 #include "base/file.hpp"
 #include "base/number_option.hpp"
 #include "scene/command_line.hpp"
@@ -17,11 +18,28 @@ namespace {
 struct CommandOptions : scene::SceneOptions
 {
     stage::CaptureOptions capture;
-    bool no_cost = false, labels = false;
+    bool no_cost = false, labels = false, gallery = false;
 };
+
+const char* const gallery_days = "0,2,5,10,20,40,180"; // unless --days or a scene file says which
+
+void run_gallery(CommandOptions options)
+{
+    if (options.days.empty() && options.scene.empty())
+        options.days = gallery_days;
+    const scene::Scene scene = scene::chosen_scene(options);
+    base::make_folder(options.capture.out);
+    stage::Renderer renderer(stage::device_options(options));
+    stage::Stage stage(renderer.device, stage::Stage::prepare(scene));
+    base::Progress progress;
+    draw_gallery(renderer, stage, options.capture.out, progress);
+    fmt::print("gallery.png and gallery.json in {}\n", options.capture.out.string());
+}
 
 void run_capture(CommandOptions& options)
 {
+    if (options.gallery)
+        return run_gallery(options);
     const scene::Scene scene = scene::chosen_scene(options);
     options.capture.cost = !options.no_cost;
     if (!options.scene.empty())
@@ -119,13 +137,19 @@ void add(CLI::App& program)
         "--labels", options->labels,
         "Also write labels of every picture: classes, wounds, mask, depth and distance as images, areas "
         "in pixels and mm2, camera; labels.json, coco.json (docs/labels.md)");
+    auto* gallery = command->add_flag("--gallery", options->gallery,
+                                      "Instead, one page of all kinds of default wound over the days: gallery.png; on days 0 to 180 "
+                                      "unless --days or a scene file says which");
+    for (const char* other : {"--views", "--orbit", "--video", "--transparent", "--exr", "--labels", "--wound", "--mask"})
+        gallery->excludes(command->get_option(other));
     command->add_flag("--no-cost", options->no_cost, "Skip the cost measurement at the end");
     command->footer("Examples:\n"
                     "  cicatrix capture --days 0:30:3 --wound photo.jpg --mask mask.png --out healing\n"
                     "  cicatrix capture --days 0:30:10 --views front,left,close-up\n"
                     "  cicatrix capture --days 0,30 --video healing.mp4 --duration 10\n"
                     "  cicatrix capture --days 5 --orbit 36 --transparent --size 800x800\n"
-                    "  cicatrix capture --days 0,9,18 --labels --no-cost");
+                    "  cicatrix capture --days 0,9,18 --labels --no-cost\n"
+                    "  cicatrix capture --gallery");
     command->callback([options] { run_capture(*options); });
 }
 
