@@ -59,9 +59,10 @@ cv::Vec<double, channels> sample_smooth(const cv::Mat& image, cv::Point2d uv)
     cv::Vec<double, channels> sum = cv::Vec<double, channels>::all(0);
     for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i)
-            sum += weights[0][i] * weights[1][j] *
-                   cv::Vec<double, channels>(image.at<cv::Vec<float, channels>>(
-                       std::clamp(first.y + j, 0, image.rows - 1), std::clamp(first.x + i, 0, image.cols - 1)));
+            sum +=
+                weights[0][i] * weights[1][j] *
+                cv::Vec<double, channels>(image.at<cv::Vec<float, channels>>(
+                    std::clamp(first.y + j, 0, image.rows - 1), std::clamp(first.x + i, 0, image.cols - 1)));
     return sum;
 }
 

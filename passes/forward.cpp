@@ -39,17 +39,20 @@ shared::WoundFrame wound_frame(const ForwardWound& wound)
 }
 
 /// The pixels in which a wound's images can show; all of them when the camera is inside the wound's reach.
-graph::Region pixels_of(const ForwardWound& wound, const shared::View& view, std::uint32_t width, std::uint32_t height)
+graph::Region pixels_of(const ForwardWound& wound, const shared::View& view, std::uint32_t width,
+                        std::uint32_t height)
 {
     constexpr double margin = 2; // pixels, for rounding
     const head::Anchor& anchor = wound.anchor;
     const glm::dvec2 scale(wound.texture.uv_scale), offset(wound.texture.uv_offset);
     glm::dvec2 low(width, height), high(0, 0);
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec2 at = (glm::dvec2(corner & 1, corner >> 1 & 1) - offset) / scale; // on the patch, -1..1 all of it
+        const glm::dvec2 at =
+            (glm::dvec2(corner & 1, corner >> 1 & 1) - offset) / scale; // on the patch, -1..1 all of it
         const double height_of = (corner & 4) != 0 ? head::Anchor::reach : -head::Anchor::reach;
         const glm::dvec3 point =
-            anchor.centre + anchor.half_width_m * (at.x * anchor.right + at.y * anchor.down + height_of * anchor.normal);
+            anchor.centre +
+            anchor.half_width_m * (at.x * anchor.right + at.y * anchor.down + height_of * anchor.normal);
         const glm::dvec4 clip = glm::dmat4(view.clip_from_world) * glm::dvec4(point, 1);
         if (!(clip.w > 1e-3))
             return {0, 0, width, height};
@@ -58,12 +61,13 @@ graph::Region pixels_of(const ForwardWound& wound, const shared::View& view, std
         high = glm::max(high, pixel + margin);
     }
     const glm::dvec2 all(width, height);
-    const glm::uvec2 first(glm::clamp(low, glm::dvec2(0), all)), last(glm::ceil(glm::clamp(high, glm::dvec2(0), all)));
+    const glm::uvec2 first(glm::clamp(low, glm::dvec2(0), all)),
+        last(glm::ceil(glm::clamp(high, glm::dvec2(0), all)));
     return {first.x, first.y, last.x - first.x, last.y - first.y};
 }
 
-/// Declares that a new day changes the picture only where the wounds are. `shown`: HeadPart::wounds of all that is drawn;
-/// the images of a wound that reaches no triangle are not sampled.
+/// Declares that a new day changes the picture only where the wounds are. `shown`: HeadPart::wounds of all
+/// that is drawn; the images of a wound that reaches no triangle are not sampled.
 void confine_wounds(graph::RasterPass& pass, std::span<const ForwardWound> wounds, std::uint32_t shown,
                     const shared::View& view, const graph::ImageDesc& target)
 {
@@ -116,7 +120,8 @@ WoundUniform wound_frames(std::span<const ForwardWound> wounds)
 namespace {
 
 /// What draw_parts() binds once.
-void prepare_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput& input, const optics::Shading& shading)
+void prepare_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput& input,
+                   const optics::Shading& shading)
 {
     pass.constant("LAMBERT", shading.lambertian());
     pass.constant("TRANSPORT", std::uint32_t(shading.drawn_transport()));
@@ -131,8 +136,8 @@ void prepare_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardIn
 }
 
 /// Parts of the mesh whose light is computed in every pixel.
-void draw_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput& input, const graph::Mesh& mesh,
-                std::span<const HeadPart> parts, const optics::Shading& shading)
+void draw_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput& input,
+                const graph::Mesh& mesh, std::span<const HeadPart> parts, const optics::Shading& shading)
 {
     for (const HeadPart& part : parts) {
         graph::Draw& draw = pass.draw("forward");
@@ -158,8 +163,8 @@ void draw_skin(graph::RasterPass& pass, const ForwardInput& input, const Skin& s
         draw.mesh = skin.mesh.get();
         draw.first_index = shown.first_index;
         draw.index_count = shown.index_count;
-        const shared::Part params = part_params(
-            *std::ranges::find(input.head.parts, shown.material, &HeadPart::material), shading);
+        const shared::Part params =
+            part_params(*std::ranges::find(input.head.parts, shown.material, &HeadPart::material), shading);
         draw.uniform("Part_", params);
         draw.uniform("Code_", kept.code);
         draw.constant("WARD", shading.glossy() && params.specular > 0);
@@ -181,8 +186,8 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
         graph.image(input.developed ? "encoded" : "radiance", {target.width, target.height, format, 1});
     graph::RasterPass& pass = graph.raster("forward");
     if (target.samples > 1)
-        pass.color(graph.image("radiance_msaa", {target.width, target.height, format, target.samples}), {0, 0, 0, 0},
-                   radiance);
+        pass.color(graph.image("radiance_msaa", {target.width, target.height, format, target.samples}),
+                   {0, 0, 0, 0}, radiance);
     else
         pass.color(radiance, {0, 0, 0, 0});
     pass.depth(graph.image("depth", {target.width, target.height, VK_FORMAT_D32_SFLOAT, target.samples}));

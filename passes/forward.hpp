@@ -47,20 +47,21 @@ struct SkinLight;
 struct ForwardInput
 {
     const Head& head;
-    std::span<const ForwardWound> wounds;  // at most shared::MAX_WOUNDS
-    std::span<const optics::Light> lights; // at most shared::MAX_LIGHTS
-    Shadows shadows;                       // of the lights
-    graph::ImageId shadow_depth;           // used when a light casts a shadow
-    bool every_frame = true;               // run the pass even when nothing has changed
+    std::span<const ForwardWound> wounds;      // at most shared::MAX_WOUNDS
+    std::span<const optics::Light> lights;     // at most shared::MAX_LIGHTS
+    Shadows shadows;                           // of the lights
+    graph::ImageId shadow_depth;               // used when a light casts a shadow
+    bool every_frame = true;                   // run the pass even when nothing has changed
     base::Color scattering_length_mm{0, 0, 0}; // of the skin (optics/transport.hpp)
-    const Skin* skin = nullptr;                // the light of `kept` is on it; else light is computed per pixel
+    const Skin* skin = nullptr; // the light of `kept` is on it; else light is computed per pixel
     const SkinLight* kept = nullptr;
-    std::span<const ForwardWound> kept_wounds;  // on the skin, whether a camera sees them or not
-    std::optional<shared::Develop> developed;   // for opaque parts, a backdrop and one sample
+    std::span<const ForwardWound> kept_wounds; // on the skin, whether a camera sees them or not
+    std::optional<shared::Develop> developed;  // for opaque parts, a backdrop and one sample
 };
 
 /// Adds one raster pass. The result is linear radiance premultiplied by alpha, RGBA16F; alpha is 1 on the
-/// head and 0 beside it. With `developed` it is the picture, RGBA8, sRGB-coded, as add_tonemap() makes it. `target.samples` is 1 or 4; with 4 the result is resolved.
+/// head and 0 beside it. With `developed` it is the picture, RGBA8, sRGB-coded, as add_tonemap() makes it.
+/// `target.samples` is 1 or 4; with 4 the result is resolved.
 graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const shared::View& view,
                            const optics::Shading& shading, const graph::ImageDesc& target);
 

@@ -23,7 +23,8 @@ std::vector<Bounds> boxes_in_picture(const FrameInput& input)
 void add_shadow_depth(graph::Graph& graph, const FrameInput& input, ForwardInput& forward, std::uint32_t size)
 {
     if (forward.shadows.casting != 0)
-        forward.shadow_depth = add_shadows(graph, forward.shadows, *input.head.caster_mesh, input.head.casters, size);
+        forward.shadow_depth =
+            add_shadows(graph, forward.shadows, *input.head.caster_mesh, input.head.casters, size);
 }
 
 } // namespace
@@ -41,7 +42,8 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
         const WoundTexture texture = add_wound_texture(graph, suffix, wound.maps, wound.today);
         const ReflectanceLut lut =
             add_reflectance_lut(graph, "reflectance_lut" + suffix, wound.tissue, input.reflectance);
-        placed.push_back({wound.anchor, texture, lut, wound.tissue.parameters.axes, &wound.today, std::uint32_t(i)});
+        placed.push_back(
+            {wound.anchor, texture, lut, wound.tissue.parameters.axes, &wound.today, std::uint32_t(i)});
         images.wounds.push_back(texture);
         // The graph drops the passes of a wound that the picture does not sample, unless something else needs
         // their images: labels, and the measurement of areas.
@@ -54,8 +56,9 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
     ForwardInput forward{input.head, seen, lights, {}, {}, input.every_frame, input.scattering_length_mm};
     std::optional<double> scale;
     if (input.skin && placed.size() <= shared::MAX_WOUNDS)
-        scale = input.skin_scale ? input.skin_scale
-                                 : atlas_scale(*input.skin, input.head.boxes, input.camera, input.tile.picture[1]);
+        scale = input.skin_scale
+                    ? input.skin_scale
+                    : atlas_scale(*input.skin, input.head.boxes, input.camera, input.tile.picture[1]);
     const bool lit = input.shading.lambertian() || input.shading.glossy();
     std::optional<SkinLight> kept;
     if (scale) {
@@ -73,13 +76,15 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
     }
     if (!kept) {
         if (input.shading.shadow && lit)
-            forward.shadows = fit_shadows(lights, input.head.min, input.head.max, boxes_in_picture(input), shadow_size);
+            forward.shadows =
+                fit_shadows(lights, input.head.min, input.head.max, boxes_in_picture(input), shadow_size);
         add_shadow_depth(graph, input, forward, shadow_size);
     }
     const Backdrop backdrop = backdrop_of(input.tile);
     if (!input.radiance && input.samples == 1 && !backdrop.transparent &&
         std::ranges::none_of(input.head.parts, &HeadPart::blend))
-        forward.developed = {std::exp2(input.exposure_stops), glm::vec2(width, height), backdrop.top, backdrop.bottom};
+        forward.developed = {std::exp2(input.exposure_stops), glm::vec2(width, height), backdrop.top,
+                             backdrop.bottom};
     const graph::ImageId drawn = add_forward(graph, forward, view, input.shading,
                                              {width, height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
     if (forward.developed)

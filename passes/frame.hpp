@@ -38,17 +38,18 @@ struct FrameInput
     float exposure_stops = 0; // each stop doubles the light
     bool every_frame = true;  // draw the head even when nothing has changed, for measurements
     base::Color scattering_length_mm{0, 0, 0}; // of the skin (optics/transport.hpp)
-    /// Of `head` and its wounds: light is kept on it where that can be done, for frames between which it stands. Null:
-    /// light is computed in every pixel.
+    /// Of `head` and its wounds: light is kept on it where that can be done, for frames between which it
+    /// stands. Null: light is computed in every pixel.
     const Skin* skin = nullptr;
     std::optional<double> skin_scale; // of the atlas; none: atlas_scale()
-    bool radiance = true; // FrameImages::radiance is needed
+    bool radiance = true;             // FrameImages::radiance is needed
 };
 
 struct FrameImages
 {
-    graph::ImageId picture;  // RGBA8, sRGB-encoded
-    graph::ImageId radiance; // RGBA16F, linear, premultiplied, without exposure and backdrop; of FrameInput::radiance
+    graph::ImageId picture; // RGBA8, sRGB-encoded
+    graph::ImageId
+        radiance; // RGBA16F, linear, premultiplied, without exposure and backdrop; of FrameInput::radiance
     std::vector<WoundTexture> wounds;
     LabelImages labels; // drawn only if they are read back
 };

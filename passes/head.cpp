@@ -9,8 +9,8 @@
 namespace passes {
 namespace {
 
-/// Splits a part by the sets of wounds that can show on a triangle; appends to `indices` and to the parts of `head`, and
-/// to its wounded triangles.
+/// Splits a part by the sets of wounds that can show on a triangle; appends to `indices` and to the parts of
+/// `head`, and to its wounded triangles.
 void append_split(const head::Model& model, std::span<const WoundReach> wounds, HeadPart part,
                   std::vector<std::uint32_t>& indices, Head& head)
 {
@@ -45,8 +45,9 @@ bool WoundReach::holds(const head::Model& model, std::size_t first) const
         facing = std::max(facing, glm::dot(glm::dvec3(vertex.normal), anchor.normal));
     }
     const glm::dvec2 least_on(least), most_on(most);
-    return facing > 0 && glm::all(glm::lessThanEqual(least_on, high)) && glm::all(glm::greaterThanEqual(most_on, low)) &&
-           least.z <= head::Anchor::reach && most.z >= -head::Anchor::reach;
+    return facing > 0 && glm::all(glm::lessThanEqual(least_on, high)) &&
+           glm::all(glm::greaterThanEqual(most_on, low)) && least.z <= head::Anchor::reach &&
+           most.z >= -head::Anchor::reach;
 }
 
 std::uint32_t wounds_on(const head::Model& model, std::size_t first, std::span<const WoundReach> wounds)

@@ -58,8 +58,9 @@ gpu::MeshBuffer upload_mesh(const gpu::Device& device, std::span<const head::Ver
 /// Uploads the model; each of its primitives becomes one part, not wounded.
 Head upload_head(const gpu::Device& device, const head::Model& model);
 
-/// Returns a copy of `head` with separate parts for the skin triangles of each set of wounds that can show on them. It
-/// shares vertices, textures and shadow casters with `head`, which upload_head() must have made from `model`.
+/// Returns a copy of `head` with separate parts for the skin triangles of each set of wounds that can show on
+/// them. It shares vertices, textures and shadow casters with `head`, which upload_head() must have made from
+/// `model`.
 Head with_wounds(const gpu::Device& device, const Head& head, const head::Model& model,
                  std::span<const WoundReach> wounds);
 

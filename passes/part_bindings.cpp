@@ -41,8 +41,8 @@ shared::Part part_params(const HeadPart& part, optics::Shading shading)
             .scattering = part.surface == head::Surface::Skin ? 1.f : 0.f};
 }
 
-void bind_part(graph::Graph& graph, graph::Draw& draw, const Head& head, const HeadPart& part, std::uint32_t set,
-               std::span<const ForwardWound> wounds)
+void bind_part(graph::Graph& graph, graph::Draw& draw, const Head& head, const HeadPart& part,
+               std::uint32_t set, std::span<const ForwardWound> wounds)
 {
     const auto map = [&](const char* name, const char* image, const gpu::Texture& texture) {
         draw.sample(name, graph.import(fmt::format("{} {}", image, part.material), texture),

@@ -73,7 +73,8 @@ shared::Shadow in_tile(const shared::Shadow& shadow, int tile, int count)
 } // namespace
 
 std::optional<shared::Shadow> fit_shadow(const optics::Light& light, const glm::vec3& box_min,
-                                         const glm::vec3& box_max, std::span<const Bounds> seen, std::uint32_t size)
+                                         const glm::vec3& box_max, std::span<const Bounds> seen,
+                                         std::uint32_t size)
 {
     const glm::dvec3 center = glm::dvec3(box_min + box_max) * 0.5;
     const double radius = glm::length(glm::dvec3(box_max) - center);
@@ -133,8 +134,7 @@ graph::ImageId add_shadows(graph::Graph& graph, const Shadows& shadows, const gr
                            std::span<const head::Primitive> casters, std::uint32_t size)
 {
     const auto count = std::uint32_t(std::popcount(shadows.casting));
-    const graph::ImageId depth =
-        graph.image("shadow depth", {count * size, size, VK_FORMAT_D32_SFLOAT});
+    const graph::ImageId depth = graph.image("shadow depth", {count * size, size, VK_FORMAT_D32_SFLOAT});
     graph::RasterPass& pass = graph.raster("shadow");
     pass.depth(depth);
     for (std::size_t light = 0; light < std::size(shadows.lights); ++light) {

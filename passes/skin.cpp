@@ -13,9 +13,10 @@
 namespace passes {
 namespace {
 
-constexpr double most_texels = 16e6;   // of each map
-constexpr double pixels_per_texel = 2; // at most, where the camera is nearest; a wound's texels are half as wide
-constexpr float longest_miter = 2;   // of a skirt, in its widths
+constexpr double most_texels = 16e6; // of each map
+constexpr double pixels_per_texel =
+    2;                             // at most, where the camera is nearest; a wound's texels are half as wide
+constexpr float longest_miter = 2; // of a skirt, in its widths
 
 struct SkinVertex
 {
@@ -42,7 +43,8 @@ cv::Mat1b small_occlusion(const head::Material& material)
     cv::Mat1b small;
     if (!material.occlusion.empty())
         cv::resize(material.occlusion, small,
-                   {std::min(material.occlusion.cols, 256), std::min(material.occlusion.rows, 256)}, 0, 0, cv::INTER_AREA);
+                   {std::min(material.occlusion.cols, 256), std::min(material.occlusion.rows, 256)}, 0, 0,
+                   cv::INTER_AREA);
     return small;
 }
 
@@ -56,7 +58,8 @@ class Spreading
             occlusion_.push_back(small_occlusion(material));
         material_.resize(model.indices.size() / 3);
         for (const head::Primitive& primitive : model.primitives)
-            std::fill_n(material_.begin() + primitive.first_index / 3, primitive.index_count / 3, primitive.material);
+            std::fill_n(material_.begin() + primitive.first_index / 3, primitive.index_count / 3,
+                        primitive.material);
     }
 
     /// A tile of a material: without wounds.
@@ -66,7 +69,8 @@ class Spreading
         for (const head::AtlasTriangle& triangle : tile.home)
             if (const std::uint32_t wounds = wounds_on(model_, triangle.first, wounds_); wounds != 0) {
                 Group& group = group_of(rest, material_[triangle.first / 3], wounds);
-                group.indices.insert(group.indices.end(), &model_.indices[triangle.first], &model_.indices[triangle.first] + 3);
+                group.indices.insert(group.indices.end(), &model_.indices[triangle.first],
+                                     &model_.indices[triangle.first] + 3);
             } else
                 whole.push_back(triangle);
         const std::vector<Group> home = groups(tile.home, false);
@@ -87,7 +91,8 @@ class Spreading
             for (const Group& other : home)
                 group.wounds |= other.wounds;
         append(margin, tile, skin.spread);
-        append(skirts(home), tile, skin.spread); // over the margin, which beyond an outline is skin far behind
+        append(skirts(home), tile,
+               skin.spread); // over the margin, which beyond an outline is skin far behind
         append(home, tile, skin.spread);
         append(home, tile, skin.shown);
     }
@@ -118,7 +123,8 @@ class Spreading
             Group& group = group_of(result, material_[triangle.first / 3],
                                     with_wounds ? wounds_on(model_, triangle.first, wounds_) : 0);
             for (std::uint32_t k = 0; k < 3; ++k)
-                group.indices.push_back(vertex(model_.indices[triangle.first + k], triangle.at[k], group.material));
+                group.indices.push_back(
+                    vertex(model_.indices[triangle.first + k], triangle.at[k], group.material));
         }
         return result;
     }
@@ -133,7 +139,8 @@ class Spreading
 
     std::uint32_t vertex(std::uint32_t index, const glm::vec2& at, std::uint32_t material)
     {
-        const std::uint64_t place = std::uint64_t{std::bit_cast<std::uint32_t>(at.x)} << 32 | std::bit_cast<std::uint32_t>(at.y);
+        const std::uint64_t place =
+            std::uint64_t{std::bit_cast<std::uint32_t>(at.x)} << 32 | std::bit_cast<std::uint32_t>(at.y);
         auto& known = known_[index];
         for (const auto& [where, vertex] : known)
             if (where == place)
@@ -150,11 +157,12 @@ class Spreading
         return known.back().second;
     }
 
-    /// A strip along the border of charts, with the attributes of the border: filters that reach beyond it find the same
-    /// skin there. Returns its indices.
+    /// A strip along the border of charts, with the attributes of the border: filters that reach beyond it
+    /// find the same skin there. Returns its indices.
     std::vector<std::uint32_t> skirt(std::span<const std::uint32_t> triangles)
     {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<std::uint32_t, 4>> edges; // a, b, opposite, count
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<std::uint32_t, 4>>
+            edges; // a, b, opposite, count
         for (std::size_t i = 0; i + 2 < triangles.size(); i += 3)
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t a = triangles[i + k], b = triangles[i + (k + 1) % 3];
@@ -194,8 +202,8 @@ class Spreading
         for (const Group& group : groups) {
             if (group.indices.empty())
                 continue;
-            draws.push_back({std::uint32_t(indices.size()), std::uint32_t(group.indices.size()), group.material,
-                             group.wounds, tile.corner, tile.size});
+            draws.push_back({std::uint32_t(indices.size()), std::uint32_t(group.indices.size()),
+                             group.material, group.wounds, tile.corner, tile.size});
             indices.insert(indices.end(), group.indices.begin(), group.indices.end());
         }
     }
@@ -203,9 +211,10 @@ class Spreading
     const head::Model& model_;
     glm::uvec2 size_;
     std::span<const WoundReach> wounds_;
-    std::vector<cv::Mat1b> occlusion_;     // by material
-    std::vector<std::uint32_t> material_;  // by triangle of the model
-    std::unordered_map<std::uint32_t, std::vector<std::pair<std::uint64_t, std::uint32_t>>> known_; // by vertex of the model
+    std::vector<cv::Mat1b> occlusion_;    // by material
+    std::vector<std::uint32_t> material_; // by triangle of the model
+    std::unordered_map<std::uint32_t, std::vector<std::pair<std::uint64_t, std::uint32_t>>>
+        known_; // by vertex of the model
 };
 
 } // namespace
@@ -228,8 +237,8 @@ std::shared_ptr<const Skin> upload_skin(const gpu::Device& device, const Head& h
     if (spreading.indices.empty())
         return nullptr;
     Skin& skin = spreading.skin;
-    skin.mesh = std::make_shared<const gpu::MeshBuffer>(device, layout, std::as_bytes(std::span(spreading.vertices)),
-                                                        spreading.indices, "skin");
+    skin.mesh = std::make_shared<const gpu::MeshBuffer>(
+        device, layout, std::as_bytes(std::span(spreading.vertices)), spreading.indices, "skin");
     skin.materials = kept_materials(model);
     skin.size = atlas.size;
     skin.texel_m = head::texel_m(atlas, 1);
@@ -251,7 +260,8 @@ std::shared_ptr<const Skin> upload_skin(const gpu::Device& device, const Head& h
         rest.insert(rest.end(), group.indices.begin(), group.indices.end());
     }
     if (!rest.empty())
-        skin.rest_mesh = std::make_shared<const gpu::MeshBuffer>(device, *head.mesh, rest, "rest of the skin");
+        skin.rest_mesh =
+            std::make_shared<const gpu::MeshBuffer>(device, *head.mesh, rest, "rest of the skin");
     return std::make_shared<const Skin>(std::move(skin));
 }
 

@@ -11,7 +11,8 @@ namespace passes {
 namespace {
 
 constexpr float skirt_texels = 2;
-constexpr double least_even_slope = .02; // below it tan^2 of the half vector loses its digits in single precision
+constexpr double least_even_slope =
+    .02; // below it tan^2 of the half vector loses its digits in single precision
 
 shared::AtlasDraw atlas_draw(const SkinDraw& draw, const glm::vec2& size, float scale)
 {
@@ -39,8 +40,8 @@ float brightest(const ForwardInput& input, const optics::Shading& shading, float
     double light = std::max({shading.ambient[0], shading.ambient[1], shading.ambient[2]});
     for (const optics::Light& lamp : input.lights) {
         const glm::dvec3 at(lamp.position[0], lamp.position[1], lamp.position[2]);
-        const double nearest =
-            std::max(glm::distance(at, glm::clamp(at, glm::dvec3(input.head.min), glm::dvec3(input.head.max))), 1e-3);
+        const double nearest = std::max(
+            glm::distance(at, glm::clamp(at, glm::dvec3(input.head.min), glm::dvec3(input.head.max))), 1e-3);
         const double ratio = lamp.kind == optics::LightKind::Point ? lamp.reference_distance_m / nearest : 1;
         light += std::max({lamp.strength[0], lamp.strength[1], lamp.strength[2]}) * ratio * ratio;
     }
@@ -52,7 +53,8 @@ float brightest(const ForwardInput& input, const optics::Shading& shading, float
 bool can_keep_light(const optics::Shading& shading, const Shadows& shadows)
 {
     return shading.lambertian() && shading.drawn_transport() != optics::Transport::Published &&
-           shading.alpha_x == shading.alpha_y && shading.alpha_x >= least_even_slope && (shadows.casting & ~3u) == 0;
+           shading.alpha_x == shading.alpha_y && shading.alpha_x >= least_even_slope &&
+           (shadows.casting & ~3u) == 0;
 }
 
 SkinLight add_skin_light(graph::Graph& graph, const ForwardInput& input, const Skin& skin, double scale,
@@ -61,11 +63,15 @@ SkinLight add_skin_light(graph::Graph& graph, const ForwardInput& input, const S
     assert(input.wounds.size() <= shared::MAX_WOUNDS);
     const glm::uvec2 size(glm::dvec2(skin.size) * scale);
     const graph::ImageDesc desc{size.x, size.y, VK_FORMAT_R8G8B8A8_UNORM};
-    // Eight bits of reflectance and light would differ by .45 instead of .23 CIEDE2000 from what every pixel computes.
+    // Eight bits of reflectance and light would differ by .45 instead of .23 CIEDE2000 from what every pixel
+    // computes.
     const graph::ImageDesc fine{size.x, size.y, VK_FORMAT_R16G16B16A16_SFLOAT};
     const graph::ImageId albedo = graph.image("skin albedo", fine), normal = graph.image("skin normal", desc);
-    SkinLight kept{graph.image("skin light", fine), graph.image("lit skin normal", desc), graph.image("skin gloss", desc),
-                   {brightest(input, shading, exposure_stops)}, {}};
+    SkinLight kept{graph.image("skin light", fine),
+                   graph.image("lit skin normal", desc),
+                   graph.image("skin gloss", desc),
+                   {brightest(input, shading, exposure_stops)},
+                   {}};
     const glm::uvec2 corner(glm::dvec2(skin.wounded_corner) * scale),
         wounded(glm::ceil(glm::dvec2(skin.wounded_size) * scale));
     kept.wounded = {corner.x, corner.y, wounded.x, wounded.y};
@@ -108,7 +114,8 @@ SkinLight add_skin_light(graph::Graph& graph, const ForwardInput& input, const S
         shown |= piece.wounds;
     for (const ForwardWound& wound : input.wounds)
         if ((shown >> wound.index & 1) != 0)
-            for (const graph::ImageId image : {wound.texture.color, wound.texture.state, wound.texture.relief})
+            for (const graph::ImageId image :
+                 {wound.texture.color, wound.texture.state, wound.texture.relief})
                 map.confine(image, kept.wounded);
     if (shown != 0)
         map.confine("Wounds_", kept.wounded);

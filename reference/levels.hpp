@@ -5,7 +5,8 @@
 
 namespace reference {
 
-/// What the scene itself leaves out (its Shading's lambert, ward, normal_map, shadow, bounce, ambient) stays out.
+/// What the scene itself leaves out (its Shading's lambert, ward, normal_map, shadow, bounce, ambient) stays
+/// out.
 struct Levels
 {
     bool shadows = true; // of every light; eyebrows and lashes cast none, as in the rasteriser

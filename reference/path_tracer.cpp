@@ -32,8 +32,7 @@ Levels drawn(Levels levels, const optics::Shading& shading)
 PathTracer::PathTracer(const scene::LoadedScene& scene, const Surfaces& surfaces, const DayWounds& wounds,
                        const Levels& levels)
     : scene_(scene), shading_(scene.scene.shading), surfaces_(surfaces), wounds_(wounds),
-      levels_(drawn(levels, shading_)),
-      ambient_(levels.ambient ? shading_.ambient : black)
+      levels_(drawn(levels, shading_)), ambient_(levels.ambient ? shading_.ambient : black)
 {
 }
 
@@ -153,7 +152,7 @@ base::Color PathTracer::received(const SurfacePoint& point, const glm::dvec3& no
     if (!hit)
         return sum + open.mul(ambient_);
     if (last || !(hit->front || surfaces_.look(*hit).double_sided))
-        return sum;                                                      // the inside of a bust is black
+        return sum;                                                         // the inside of a bust is black
     const double chance = std::min(1.0, 4 * largest(open.mul(importance))); // Russian roulette
     if (random() >= chance)
         return sum;

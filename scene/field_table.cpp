@@ -242,8 +242,10 @@ const std::vector<Field<optics::Shading>>& shading_fields()
                 "light that reaches a point by way of the skin around it"),
             choice<Shading>(
                 "transport", optics::transport_names, [](auto& s) -> auto& { return s.transport; },
-                "how light leaves the skin: by the translucent term of eq. (6) too, which also lights what no "
-                "light reaches; where it entered; or spread by the tissue, by curvature at bends, at the edges of "
+                "how light leaves the skin: by the translucent term of eq. (6) too, which also lights what "
+                "no "
+                "light reaches; where it entered; or spread by the tissue, by curvature at bends, at the "
+                "edges of "
                 "shadows, and through thin parts"),
             choice<Shading>(
                 "specular_model", optics::specular_model_names,

@@ -103,15 +103,15 @@ std::string name_of(const Wound& wound, std::size_t index);
 /// The last of the days, at least 1: reflectance tables reach so far.
 double last_day(const Scene& scene);
 
-/// The paper's distance of 2 between light and face, for a head that is 25 cm from chin to crown, as the default head
-/// is.
-inline constexpr double published_light_distance_m =
-    optics::paper_light_distance / optics::paper_width * .25;
+/// The paper's distance of 2 between light and face, for a head that is 25 cm from chin to crown, as the
+/// default head is.
+inline constexpr double published_light_distance_m = optics::paper_light_distance / optics::paper_width * .25;
 
-/// Published mode: everything as in the paper, nothing of ours beside it. Eqs. (2) and (3) in their domain, of
-/// Table 1 as thick as at the wound's place; eqs. (4), (6) and (7) as printed, with the paper's coefficients;
-/// contraction alone; one light without falloff at the paper's distance; no shadow, no ambient light. A scene
-/// may also name the `published` model of a single equation. docs/shading.md compares the modes.
+/// Published mode: everything as in the paper, nothing of ours beside it. Eqs. (2) and (3) in their domain,
+/// of Table 1 as thick as at the wound's place; eqs. (4), (6) and (7) as printed, with the paper's
+/// coefficients; contraction alone; one light without falloff at the paper's distance; no shadow, no ambient
+/// light. A scene may also name the `published` model of a single equation. docs/shading.md compares the
+/// modes.
 void make_published(Scene& scene);
 
 /// Checks a scene that was not read by read_scene(), for instance one edited in the window: counts of days,

@@ -95,13 +95,12 @@ Drawing draw(Renderer& renderer, const Stage& stage, const scene::Shot& shot, co
     for (const passes::ViewportTile& tile : tiles_of(options)) {
         const bool first = drawing.picture.empty();
         graph::Graph graph;
-        const Frame declared =
-            stage.declare(graph, {.day = shot.day,
-                                  .tile = tile,
-                                  .camera = shot.camera,
-                                  .every_frame = false,
-                                  .light_stands = options.light_stands,
-                                  .radiance = options.radiance});
+        const Frame declared = stage.declare(graph, {.day = shot.day,
+                                                     .tile = tile,
+                                                     .camera = shot.camera,
+                                                     .every_frame = false,
+                                                     .light_stands = options.light_stands,
+                                                     .radiance = options.radiance});
         const passes::FrameImages& images = declared.images;
         drawing.wounds = declared.wounds;
         const graph::ReadbackId picture = graph.readback("picture", images.picture);

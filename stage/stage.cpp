@@ -125,10 +125,10 @@ Stage::Set Stage::make(const scene::Scene& scene) const
                    : std::make_shared<const passes::Head>(passes::upload_head(*device_, model));
     for (const scene::PlacedWound& wound : set.loaded.wounds)
         set.reaches.push_back(reach_of(wound));
-    set.wounded =
-        set.bare == set_.bare && set_.wounded && set.reaches == set_.reaches
-            ? set_.wounded
-            : std::make_shared<const passes::Head>(passes::with_wounds(*device_, *set.bare, model, set.reaches));
+    set.wounded = set.bare == set_.bare && set_.wounded && set.reaches == set_.reaches
+                      ? set_.wounded
+                      : std::make_shared<const passes::Head>(
+                            passes::with_wounds(*device_, *set.bare, model, set.reaches));
     for (const scene::PlacedWound& wound : set.loaded.wounds)
         set.wounds.push_back({maps_of(wound), lut_of(set, wound)});
     return set;

@@ -33,11 +33,11 @@ struct FrameRequest
     /// Draw the head even when nothing has changed, for measurements. A window sets it to false, so that no
     /// pass runs when nothing has changed (gpu::Executor::up_to_date).
     bool every_frame = true;
-    /// More frames with the same light follow: it is kept on the skin, which costs this frame more and those less.
-    /// Not while something is dragged.
+    /// More frames with the same light follow: it is kept on the skin, which costs this frame more and those
+    /// less. Not while something is dragged.
     bool light_stands = false;
     std::optional<double> light_scale; // of the skin's atlas; none: Stage::light_scale()
-    bool radiance = true; // FrameImages::radiance is needed
+    bool radiance = true;              // FrameImages::radiance is needed
 };
 
 struct Frame
@@ -98,8 +98,9 @@ class Stage
     /// The view of a camera for a tile.
     shared::View view(const head::Camera& camera, const passes::ViewportTile& tile) const;
 
-    /// The scale of the skin's atlas at which light is kept for this camera and height of the picture, pixels; none when it
-    /// is computed in every pixel because the head has no usable skin or the camera is too near.
+    /// The scale of the skin's atlas at which light is kept for this camera and height of the picture,
+    /// pixels; none when it is computed in every pixel because the head has no usable skin or the camera is
+    /// too near.
     std::optional<double> light_scale(const head::Camera& camera, std::uint32_t height) const;
 
     /// Declares a frame. The graph keeps the device data that the frame reads alive.
@@ -147,7 +148,7 @@ class Stage
     std::shared_ptr<std::vector<UploadedMaps>> uploaded_ = std::make_shared<std::vector<UploadedMaps>>();
     std::uint64_t seen_news_ = 0;
     bool dragging_ = false;
-    Set set_, whole_;                         // whole_: the last complete set
+    Set set_, whole_; // whole_: the last complete set
     /// Of a head and its wounds, once a frame has asked for it.
     struct SpreadHead
     {
@@ -156,7 +157,8 @@ class Stage
         std::shared_ptr<const passes::Skin> skin;
     };
     mutable SpreadHead spread_;
-    mutable std::optional<base::Color> scattering_length_mm_; // of set_'s tissue, once a frame has asked for it
+    mutable std::optional<base::Color>
+        scattering_length_mm_;                // of set_'s tissue, once a frame has asked for it
     mutable std::deque<KnownDay> known_days_; // of set_, most recently requested first
 };
 

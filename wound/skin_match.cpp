@@ -277,8 +277,8 @@ Patch match_to_skin(const Patch& patch, const cv::Mat3f& face_skin)
 {
     Source source = checked(patch);
     const int n = source.color.rows;
-    Patch result{cv::Mat3f(n, n), cv::Mat1f(n, n), patch.mask, patch.depth_mm,
-                 patch.width_mm,  true,            patch.layer};
+    Patch result{cv::Mat3f(n, n), cv::Mat1f(n, n), patch.mask, patch.depth_mm, patch.width_mm, true,
+                 patch.layer};
 
     remove_highlights(source.color, source.coverage, source.radius);
     cv::Mat3f log_photo;

@@ -137,10 +137,12 @@ void add(CLI::App& program)
         "--labels", options->labels,
         "Also write labels of every picture: classes, wounds, mask, depth and distance as images, areas "
         "in pixels and mm2, camera; labels.json, coco.json (docs/labels.md)");
-    auto* gallery = command->add_flag("--gallery", options->gallery,
-                                      "Instead, one page of all kinds of default wound over the days: gallery.png; on days 0 to 180 "
-                                      "unless --days or a scene file says which");
-    for (const char* other : {"--views", "--orbit", "--video", "--transparent", "--exr", "--labels", "--wound", "--mask"})
+    auto* gallery = command->add_flag(
+        "--gallery", options->gallery,
+        "Instead, one page of all kinds of default wound over the days: gallery.png; on days 0 to 180 "
+        "unless --days or a scene file says which");
+    for (const char* other :
+         {"--views", "--orbit", "--video", "--transparent", "--exr", "--labels", "--wound", "--mask"})
         gallery->excludes(command->get_option(other));
     command->add_flag("--no-cost", options->no_cost, "Skip the cost measurement at the end");
     command->footer("Examples:\n"

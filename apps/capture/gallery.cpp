@@ -48,7 +48,8 @@ void draw_gallery(stage::Renderer& renderer, stage::Stage& stage, const std::fil
                 stage::draw(renderer, stage, {day, "", stage.loaded().close_up(0), ""},
                             {.size = {drawn, drawn}, .areas = false});
             const double open = drawing.wounds->front().unhealed_ratio;
-            cells.push_back({base::sheet_picture(drawing.picture, width), {}, fmt::format("{}, day {:.4g}", kind, day)});
+            cells.push_back(
+                {base::sheet_picture(drawing.picture, width), {}, fmt::format("{}, day {:.4g}", kind, day)});
             record.push_back({{"kind", kind}, {"day", day}, {"unhealed_ratio", open}});
             progress.step();
         }
@@ -56,8 +57,10 @@ void draw_gallery(stage::Renderer& renderer, stage::Stage& stage, const std::fil
     progress.clear();
     base::write_png(out / "gallery.png",
                     base::contact_sheet("the kinds of wound", cells, int(scene.days.size())));
-    base::write_json(out / "gallery.json",
-                     {{"format", "cicatrix gallery"}, {"version", 1}, {"scene", scene::to_json(scene)}, {"pictures", record}});
+    base::write_json(out / "gallery.json", {{"format", "cicatrix gallery"},
+                                            {"version", 1},
+                                            {"scene", scene::to_json(scene)},
+                                            {"pictures", record}});
     stage::fail_on_validation(renderer.device);
 }
 

@@ -7,9 +7,9 @@
 
 namespace capture_command {
 
-/// The kinds on the scene's head, in the place and with the seed, width, lights, tissue and shading of the scene's first
-/// wound, each with the course that is usual for it. A close-up is
-/// as wide as the scene's picture is, but at most base::sheet_cell_width. Writes gallery.png and gallery.json to `out`. Throws
+/// The kinds on the scene's head, in the place and with the seed, width, lights, tissue and shading of the
+/// scene's first wound, each with the course that is usual for it. A close-up is as wide as the scene's
+/// picture is, but at most base::sheet_cell_width. Writes gallery.png and gallery.json to `out`. Throws
 /// base::InputError.
 void draw_gallery(stage::Renderer& renderer, stage::Stage& stage, const std::filesystem::path& out,
                   base::Progress& progress);

@@ -230,7 +230,12 @@ DemoWindow::Drawn DemoWindow::draw_picture(double scale)
                                             std::max(16u, std::uint32_t(std::lround(full[1] * scale)))};
     graph::Graph graph;
     const double day = state_.playback.day;
-    const stage::FrameRequest now{.day = day, .tile = size, .every_frame = false, .light_stands = light_.scale.has_value(), .light_scale = light_.scale, .radiance = false};
+    const stage::FrameRequest now{.day = day,
+                                  .tile = size,
+                                  .every_frame = false,
+                                  .light_stands = light_.scale.has_value(),
+                                  .light_scale = light_.scale,
+                                  .radiance = false};
     stage::FrameRequest other = now;
     other.day = compared_day(day);
     const graph::ImageId picture =

@@ -111,8 +111,8 @@ class DemoWindow
     std::optional<stage::Stage> compared_; // shown right of the divider
     History history_{scene::Scene{}};
     scene::Scene on_disk_; // as last read or saved
-    /// Light that is kept on the skin: since when the scene's light, wounds and day have stood, and at which scale of the
-    /// atlas it was last drawn at rest. While a camera moves the scale stays.
+    /// Light that is kept on the skin: since when the scene's light, wounds and day have stood, and at which
+    /// scale of the atlas it was last drawn at rest. While a camera moves the scale stays.
     struct StandingLight
     {
         scene::Scene scene; // without its camera

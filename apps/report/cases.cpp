@@ -39,8 +39,9 @@ optics::HealingTissue tinted(optics::HealingTissue tissue, double factor)
 
 const std::vector<std::string>& case_names()
 {
-    static const std::vector<std::string> names{"still",      "camera",     "camera-lit", "day",      "day-camera",
-                                                "light-drag", "light-rest", "tissue",     "read-back"};
+    static const std::vector<std::string> names{"still",      "camera",     "camera-lit",
+                                                "day",        "day-camera", "light-drag",
+                                                "light-rest", "tissue",     "read-back"};
     return names;
 }
 
@@ -50,16 +51,24 @@ std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage, const std::ve
     const auto [first, last] = std::ranges::minmax(scene.days);
     const double span = last > first ? last - first : 10;
     constexpr double arc_deg = 40, tint = 0.2;
-    const auto declare = [&stage](graph::Graph& graph, double day, const head::Camera& camera, bool light_stands = false) {
-        const stage::FrameRequest request{
-            .day = day, .tile = stage.scene().size, .camera = camera, .every_frame = false, .light_stands = light_stands, .radiance = false};
+    const auto declare = [&stage](graph::Graph& graph, double day, const head::Camera& camera,
+                                  bool light_stands = false) {
+        const stage::FrameRequest request{.day = day,
+                                          .tile = stage.scene().size,
+                                          .camera = camera,
+                                          .every_frame = false,
+                                          .light_stands = light_stands,
+                                          .radiance = false};
         const graph::ImageId picture = stage.declare(graph, request).images.picture;
         graph.present(picture);
         return picture;
     };
-    const auto turned = [&stage](double position) { return orbited(stage.loaded().camera(), arc_deg * position); };
+    const auto turned = [&stage](double position) {
+        return orbited(stage.loaded().camera(), arc_deg * position);
+    };
     const optics::HealingTissue tissue = optics::healing_tissue_or_file(scene.tissue);
-    const auto light_at = [=, &stage, scene = scene::Scene(scene)](graph::Graph& graph, double position, bool dragged) {
+    const auto light_at = [=, &stage, scene = scene::Scene(scene)](graph::Graph& graph, double position,
+                                                                   bool dragged) {
         scene::Scene lit = scene;
         if (!lit.lights.empty())
             lit.lights.front().from.azimuth_deg += arc_deg * position;
@@ -70,7 +79,8 @@ std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage, const std::ve
     std::vector<stage::MeasuredCase> cases{
         {"still", "nothing changes",
          [=, &stage](graph::Graph& graph, double) { declare(graph, first, stage.loaded().camera(), true); }},
-        {"camera", fmt::format("the camera goes {:g} degrees around the head; light is kept on the skin", arc_deg),
+        {"camera",
+         fmt::format("the camera goes {:g} degrees around the head; light is kept on the skin", arc_deg),
          [=](graph::Graph& graph, double position) { declare(graph, first, turned(position), true); }},
         {"camera-lit", "the same; light is computed in every pixel",
          [=](graph::Graph& graph, double position) { declare(graph, first, turned(position)); }},
@@ -79,7 +89,9 @@ std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage, const std::ve
              declare(graph, first + span * position, stage.loaded().camera());
          }},
         {"day-camera", "the day goes on while the camera turns",
-         [=](graph::Graph& graph, double position) { declare(graph, first + span * position, turned(position)); }},
+         [=](graph::Graph& graph, double position) {
+             declare(graph, first + span * position, turned(position));
+         }},
         {"light-drag", fmt::format("the first light goes {:g} degrees around the head", arc_deg),
          [=](graph::Graph& graph, double position) { light_at(graph, position, true); }, restore},
         {"light-rest", "the same, and each time light is kept on the skin anew",
@@ -97,7 +109,9 @@ std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage, const std::ve
              graph.readback("picture", declare(graph, first, stage.loaded().camera(), true));
          }}};
     if (!chosen.empty())
-        std::erase_if(cases, [&](const stage::MeasuredCase& one) { return std::ranges::find(chosen, one.name) == chosen.end(); });
+        std::erase_if(cases, [&](const stage::MeasuredCase& one) {
+            return std::ranges::find(chosen, one.name) == chosen.end();
+        });
     return cases;
 }
 

@@ -166,12 +166,14 @@ std::string add_kept_light(json& facts, const gpu::Device& device, const graph::
 {
     gpu::Executor executor(device, library);
     const stage::KeptLightError error = stage::measure_kept_light(
-        executor, stage, {.day = stage.scene().days.front(), .tile = stage.scene().size, .every_frame = false});
-    facts["kept_light"] = {{"kept", error.kept}, {"pixels", error.pixels}, {"mean_de", error.mean},
-                           {"p95_de", error.p95}, {"p999_de", error.p999}, {"max_de", error.max}};
+        executor, stage,
+        {.day = stage.scene().days.front(), .tile = stage.scene().size, .every_frame = false});
+    facts["kept_light"] = {{"kept", error.kept},  {"pixels", error.pixels}, {"mean_de", error.mean},
+                           {"p95_de", error.p95}, {"p999_de", error.p999},  {"max_de", error.max}};
     if (!error.kept)
         return "light is not kept on this skin: it is computed in every pixel";
-    return fmt::format("light kept on the skin differs from light computed in every pixel by {:.2f} CIEDE2000 (mean over the "
+    return fmt::format("light kept on the skin differs from light computed in every pixel by {:.2f} "
+                       "CIEDE2000 (mean over the "
                        "head; p95 {:.2f}, p99.9 {:.2f}, worst pixel {:.1f})",
                        error.mean, error.p95, error.p999, error.max);
 }
@@ -249,15 +251,16 @@ void add(CLI::App& program)
             ->add_option("--against", options->against,
                          "Compare with this earlier report.json: ratios, and which of them exceed the noise")
             ->type_name("REPORT.json");
-    auto* sweep = command
-        ->add_option(
-            "--sweep", options->sweeps,
-            "Instead of the cases, measure how the cost grows with: size, triangles, wounds, points "
-            "(control points), lut (reflectance table); separate several by commas")
-        ->delimiter(',')
-        ->check(CLI::IsMember(sweep_names()))
-        ->type_name("KIND")
-        ->excludes(against);
+    auto* sweep =
+        command
+            ->add_option(
+                "--sweep", options->sweeps,
+                "Instead of the cases, measure how the cost grows with: size, triangles, wounds, points "
+                "(control points), lut (reflectance table); separate several by commas")
+            ->delimiter(',')
+            ->check(CLI::IsMember(sweep_names()))
+            ->type_name("KIND")
+            ->excludes(against);
     command
         ->add_option("--cases", options->cases,
                      fmt::format("Only these cases, separated by commas: {}", fmt::join(case_names(), ", ")))

@@ -6,8 +6,9 @@
 // uniforms, buffers, draws). A pass is skipped when its key and inputs equal
 // those of its last run, and culled when nothing needs its outputs.
 //
-// Every image has exactly one writer, which writes all of it; passes may be declared in any order. A pass that runs
-// because of inputs whose changes it has confined to a region writes that region only: the rest stands.
+// Every image has exactly one writer, which writes all of it; passes may be declared in any order. A pass
+// that runs because of inputs whose changes it has confined to a region writes that region only: the rest
+// stands.
 #pragma once
 #include "engine/graph/bindings.hpp"
 #include "engine/graph/mesh.hpp"
@@ -49,14 +50,18 @@ struct ExternalImage
     std::uint64_t content = 0;
 };
 
-/// What of a pass's images a change of an input can touch; without a word about it: everything. The images that the
-/// pass writes must have one size. A wrong region leaves outdated texels: Measuring::check_regions finds them.
+/// What of a pass's images a change of an input can touch; without a word about it: everything. The images
+/// that the pass writes must have one size. A wrong region leaves outdated texels: Measuring::check_regions
+/// finds them.
 class Reach
 {
   public:
-    /// A change of a uniform block or buffer, of the pass or of its draws, touches no texel outside `region`; neither does a change from an earlier
-    /// frame's value outside the regions of both frames.
-    void confine(std::string_view block, const Region& region) { confined.push_back({std::string(block), {}, region}); }
+    /// A change of a uniform block or buffer, of the pass or of its draws, touches no texel outside `region`;
+    /// neither does a change from an earlier frame's value outside the regions of both frames.
+    void confine(std::string_view block, const Region& region)
+    {
+        confined.push_back({std::string(block), {}, region});
+    }
     /// The same of a sampled image's contents.
     void confine(ImageId image, const Region& region) { confined.push_back({{}, image, region}); }
     /// The same of a change that leaves all of the image but `source` as it was.

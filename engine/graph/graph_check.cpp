@@ -156,7 +156,8 @@ class GraphChecker
     /// A region is one of all images that the pass writes.
     void check_reach(const Pass& pass)
     {
-        const auto& confined = std::visit([](const Reach& reach) -> const auto& { return reach.confined; }, pass);
+        const auto& confined = std::visit(
+            [](const Reach& reach) -> const auto& { return reach.confined; }, pass);
         if (confined.empty())
             return;
         std::vector<ImageDesc> outputs;
@@ -170,11 +171,13 @@ class GraphChecker
             }
         for (const ImageDesc& desc : outputs)
             if (desc.width != outputs.front().width || desc.height != outputs.front().height)
-                complain("pass {}: confines a change to a region, but writes images of several sizes", name_of(pass));
+                complain("pass {}: confines a change to a region, but writes images of several sizes",
+                         name_of(pass));
         std::set<std::string> seen;
         for (const Reach::Confined& input : confined) {
             bool block = std::visit(
-                [&](const Bindings& bindings) { return find_named(bindings.data, input.block) != nullptr; }, pass);
+                [&](const Bindings& bindings) { return find_named(bindings.data, input.block) != nullptr; },
+                pass);
             if (const auto* raster = std::get_if<RasterPass>(&pass))
                 block |= std::ranges::any_of(raster->draws, [&](const Draw& draw) {
                     return find_named(draw.data, input.block) != nullptr;
@@ -186,12 +189,15 @@ class GraphChecker
                 complain("pass {}: confines changes of {}, which it does not read", name_of(pass), name);
             if (!input.region && known(input.image))
                 for (const ImageDesc& desc : outputs)
-                    if (desc.width != image(input.image).desc.width || desc.height != image(input.image).desc.height)
-                        complain("pass {}: works in place on {}, which is not of its images' size", name_of(pass), name);
+                    if (desc.width != image(input.image).desc.width ||
+                        desc.height != image(input.image).desc.height)
+                        complain("pass {}: works in place on {}, which is not of its images' size",
+                                 name_of(pass), name);
             for (const ImageDesc& desc : outputs)
                 if (input.region && (input.region->x + input.region->width > desc.width ||
                                      input.region->y + input.region->height > desc.height))
-                    complain("pass {}: confines changes of {} to a region beyond its images", name_of(pass), name);
+                    complain("pass {}: confines changes of {} to a region beyond its images", name_of(pass),
+                             name);
         }
     }
 

@@ -23,6 +23,9 @@ inline Region bounds(const Region& a, const Region& b)
     return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
 }
 
-inline bool holds(const Region& outer, const Region& inner) { return bounds(outer, inner) == outer; }
+inline bool holds(const Region& outer, const Region& inner)
+{
+    return bounds(outer, inner) == outer;
+}
 
 } // namespace graph

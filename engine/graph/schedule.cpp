@@ -207,12 +207,14 @@ class Scheduler
 
     void add_reach(std::vector<KeyPart>& key, const Pass& pass) const
     {
-        const auto& confined = std::visit([](const Reach& reach) -> const auto& { return reach.confined; }, pass);
+        const auto& confined = std::visit(
+            [](const Reach& reach) -> const auto& { return reach.confined; }, pass);
         for (const Reach::Confined& input : confined)
             for (KeyPart& part : key)
                 if (input.image.valid() ? part.what == "input " + image_name(input.image)
                                         : part.what.ends_with("uniform " + input.block) ||
-                                              part.what.ends_with("buffer " + input.block)) { // of the pass or a draw
+                                              part.what.ends_with("buffer " + input.block))
+                { // of the pass or a draw
                     part.region = input.region;
                     part.source = input.source;
                     part.in_place = !input.region;
@@ -303,7 +305,8 @@ class Scheduler
     }
 
     /// What of an input differs from its contents of version `since`; none: unknown.
-    std::optional<Region> refreshed_since(std::uint32_t position, const KeyPart& input, std::uint64_t since) const
+    std::optional<Region> refreshed_since(std::uint32_t position, const KeyPart& input,
+                                          std::uint64_t since) const
     {
         for (const ImageAccess& access : accesses_[position])
             if (!writes(access) && input.what == "input " + image_name(access.image)) {

@@ -63,7 +63,7 @@ struct PassPlan
     PassState state = PassState::Run;
     std::string reason; // "unchanged", "unused: nothing samples lut", "changed: uniform day", "first run",
                         // "every frame"
-    std::optional<Region> region; // of its images that is written; none: all
+    std::optional<Region> region;                                  // of its images that is written; none: all
     std::vector<ImageBarrier> barriers;                            // before the pass
     std::vector<VkAttachmentStoreOp> color_stores, resolve_stores; // by colour target
     VkAttachmentStoreOp depth_store = VK_ATTACHMENT_STORE_OP_DONT_CARE;

@@ -144,7 +144,8 @@ TEST_F(Report, TheCasesChangeThePictureAndRestoreTheStage)
 {
     const scene::Scene scene = small::scene(small::head(), 64);
     stage::Stage stage(gpu_test::device(), stage::Stage::prepare(scene));
-    const std::vector<stage::MeasuredCase> cases = report_command::report_cases(stage, {"still", "camera", "day", "day-camera", "light-drag", "light-rest", "tissue"});
+    const std::vector<stage::MeasuredCase> cases = report_command::report_cases(
+        stage, {"still", "camera", "day", "day-camera", "light-drag", "light-rest", "tissue"});
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
     const auto picture = [&](const stage::MeasuredCase& one, double position) {
         graph::Graph graph;

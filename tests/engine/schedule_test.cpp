@@ -318,15 +318,18 @@ TEST(Schedule, AConfinedChangeRefreshesItsRegionInEveryPassThatFollowsInPlace)
     EXPECT_EQ(pass_plan(second, "warp").region, std::nullopt);
     EXPECT_EQ(pass_plan(second, "forward").region, spot);
     EXPECT_EQ(pass_plan(second, "tonemap").region, spot);
-    EXPECT_NEAR(graph::refreshed_share(Spot(4, spot).graph, pass_plan(second, "tonemap")), 16 * 8 / 2048., 1e-12);
+    EXPECT_NEAR(graph::refreshed_share(Spot(4, spot).graph, pass_plan(second, "tonemap")), 16 * 8 / 2048.,
+                1e-12);
     const graph::Barrier target_barrier = pass_plan(second, "forward").barriers.back().barrier;
     EXPECT_EQ(target_barrier.old_layout, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) << "the contents are kept";
     EXPECT_EQ(trace(graph::schedule(Spot(4, spot).graph, second.memory)),
               "warp skipped: unchanged | forward skipped: unchanged | tonemap skipped: unchanged");
 }
 
-/// light, which confines the wound's changes to `inside` -> forward, which shows a change within `source` at `region`.
-graph::Graph on_a_surface(float day, const graph::Region& inside, const graph::Region& source, const graph::Region& region)
+/// light, which confines the wound's changes to `inside` -> forward, which shows a change within `source` at
+/// `region`.
+graph::Graph on_a_surface(float day, const graph::Region& inside, const graph::Region& source,
+                          const graph::Region& region)
 {
     graph::Graph graph;
     const graph::ImageId wound = add_compute(graph, "warp", {}, day);
@@ -351,10 +354,12 @@ TEST(Schedule, AChangeBeyondASourceRefreshesEverything)
 {
     constexpr graph::Region tile{0, 0, 12, 16};
     graph::Memory memory = graph::schedule(on_a_surface(3, spot, tile, moved_spot), {}).memory;
-    EXPECT_EQ(pass_plan(graph::schedule(on_a_surface(4, spot, tile, moved_spot), memory), "forward").region, std::nullopt);
+    EXPECT_EQ(pass_plan(graph::schedule(on_a_surface(4, spot, tile, moved_spot), memory), "forward").region,
+              std::nullopt);
     constexpr graph::Region all{0, 0, 64, 32};
     memory = graph::schedule(on_a_surface(3, all, tile, moved_spot), {}).memory;
-    EXPECT_EQ(pass_plan(graph::schedule(on_a_surface(4, all, tile, moved_spot), memory), "forward").region, std::nullopt);
+    EXPECT_EQ(pass_plan(graph::schedule(on_a_surface(4, all, tile, moved_spot), memory), "forward").region,
+              std::nullopt);
 }
 
 TEST(Schedule, ARegionThatMovesRefreshesWhereItWasToo)
@@ -403,15 +408,17 @@ TEST(Schedule, AReaderThatMissedARefreshIsWrittenWhole)
     EXPECT_EQ(pass_plan(second, "forward").region, spot);
     const graph::Plan third = graph::schedule(frame(5, true), second.memory);
     EXPECT_EQ(pass_plan(third, "forward").region, spot);
-    EXPECT_EQ(pass_plan(third, "tonemap").region, std::nullopt) << "two refreshes have passed since its last run";
+    EXPECT_EQ(pass_plan(third, "tonemap").region, std::nullopt)
+        << "two refreshes have passed since its last run";
 }
 
 TEST(Schedule, AnInputThatReachesNoTexelRunsNothing)
 {
     graph::Memory memory = graph::schedule(Spot(3, {}).graph, {}).memory;
     const graph::Plan second = graph::schedule(Spot(4, {}).graph, memory);
-    EXPECT_EQ(trace(second), "warp ran: changed: uniform value | forward skipped: unaffected: changed: input warp_out "
-                             "| tonemap skipped: unaffected: changed: input forward_out");
+    EXPECT_EQ(trace(second),
+              "warp ran: changed: uniform value | forward skipped: unaffected: changed: input warp_out "
+              "| tonemap skipped: unaffected: changed: input forward_out");
     EXPECT_EQ(pass_plan(graph::schedule(Spot(5, spot).graph, second.memory), "forward").region, spot)
         << "its picture counts as one of day 4";
 }

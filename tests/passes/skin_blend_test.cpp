@@ -200,8 +200,8 @@ base::Color lit_radiance(const wound::SkinPoint& skin, const optics::Shading& sh
                                     .frame = {tangent[0], tangent[1], tangent[2], bitangent[0], bitangent[1],
                                               bitangent[2], n[0], n[1], n[2]},
                                     .to_viewer = cv::normalize(cv::Vec3d(0, 0, distance_m) - position),
-                                     .albedo = shading.ward ? base::Color(0, 0, 0) : skin.albedo,
-                                     .finish = wound::finish_of(skin)};
+                                    .albedo = shading.ward ? base::Color(0, 0, 0) : skin.albedo,
+                                    .finish = wound::finish_of(skin)};
     const bool dimmed = shading.ward && !optics::only_ward(shading);
     return optics::shade(wound::with_gloss(shading, skin), light, point, 1) * (dimmed ? skin.occlusion : 1);
 }
@@ -230,8 +230,8 @@ TEST_F(SkinBlendOnGpu, ColorAndOcclusionEqualThoseOfTheCpu)
 }
 
 // Diffuse light depends on albedo and normal; the highlight on normal, occlusion, wetness and tautness, that
-// of the published model on the normal alone. The highlight is as bright as .7 and follows the slope, which is
-// a difference of depths in half floats and off by .01 in places (wound_texture_test.cpp).
+// of the published model on the normal alone. The highlight is as bright as .7 and follows the slope, which
+// is a difference of depths in half floats and off by .01 in places (wound_texture_test.cpp).
 TEST_F(SkinBlendOnGpu, DiffuseLightAndHighlightEqualThoseOfTheCpu)
 {
     const optics::Light light{.kind = optics::LightKind::Directional,
@@ -264,7 +264,8 @@ TEST_F(SkinBlendOnGpu, DiffuseLightAndHighlightEqualThoseOfTheCpu)
     }
 }
 
-// In a hollow of the head the surroundings are dimmed and the skin around sends light back; the highlight stays.
+// In a hollow of the head the surroundings are dimmed and the skin around sends light back; the highlight
+// stays.
 TEST_F(SkinBlendOnGpu, OcclusionOfTheHeadEqualsThatOfTheCpu)
 {
     constexpr float open = .4f;
@@ -283,9 +284,9 @@ TEST_F(SkinBlendOnGpu, OcclusionOfTheHeadEqualsThatOfTheCpu)
         const wound::SkinPoint skin =
             wound::with_wound({own_albedo, mapped}, look, scene.place(x, y), shading.blend_model);
         const base::Color albedo = shading.rho_d * skin.albedo;
-        const base::Color around =
-            albedo.mul(optics::visibility(open * skin.occlusion, albedo)).mul(ambient);
-        const base::Color bounced = optics::bounced_share(open, skin.normal.dot(light.direction)) * albedo.mul(albedo);
+        const base::Color around = albedo.mul(optics::visibility(open * skin.occlusion, albedo)).mul(ambient);
+        const base::Color bounced =
+            optics::bounced_share(open, skin.normal.dot(light.direction)) * albedo.mul(albedo);
         return lit_radiance(skin, shading, light, head::to_cv(scene.position(x, y))) + around + bounced;
     });
     EXPECT_LT(found.largest, of_color.largest);

@@ -54,8 +54,8 @@ TEST_F(WoundFormulas, PhaseColoursOfTheBedEqualTheReference)
         for (int y = 0; y < side; ++y)
             for (int x = 0; x < side; ++x) {
                 const cv::Vec3d expected = wound::tinted(
-                    patch.color(y, x), base::sample<3>(levels, {(x + .5) / side, (y + .5) / side}, 2.5), phase,
-                    luminance);
+                    patch.color(y, x), base::sample<3>(levels, {(x + .5) / side, (y + .5) / side}, 2.5),
+                    phase, luminance);
                 for (int c = 0; c < 3; ++c) {
                     ASSERT_TRUE(std::isfinite(drawn(y, x)[c]) && drawn(y, x)[c] >= 0);
                     worst = std::max(worst, std::abs(drawn(y, x)[c] - expected[c]));
@@ -113,7 +113,8 @@ TEST_F(WoundFormulas, ReliefIsTheSlopeAndTheOpennessOfTheDepth)
         const gpu::FrameResult frame = executor.run(graph);
         const cv::Mat4f color = read(frame, color_id), state = read(frame, state_id),
                         relief = read(frame, relief_id);
-        const double left = std::min(4 * day.unhealed_ratio, 1.); // granulation fills the last quarter of the area
+        const double left =
+            std::min(4 * day.unhealed_ratio, 1.); // granulation fills the last quarter of the area
         const double scale = day.depth_scale * left * left * (3 - 2 * left);
         const auto at = [&](int x, int y) { return depth(state, x, y, scale, day.scar.height_mm); };
         for (int y = 0; y < 128; ++y)

@@ -1,5 +1,5 @@
-// Light that is kept on the skin: pictures are those of light that is computed in every pixel, a camera runs its own pass
-// alone, and a new day refreshes the wounds' tiles alone.
+// Light that is kept on the skin: pictures are those of light that is computed in every pixel, a camera runs
+// its own pass alone, and a new day refreshes the wounds' tiles alone.
 #include <gmock/gmock.h>
 
 #include "stage/kept_light.hpp"
@@ -10,8 +10,8 @@ namespace {
 
 using testing::UnorderedElementsAre;
 
-// CIEDE2000. The worst thousandth are the rim of the wound, whose filter is another one, and the edges of shadows, whose map is
-// another one: more of a small picture than of a large one.
+// CIEDE2000. The worst thousandth are the rim of the wound, whose filter is another one, and the edges of
+// shadows, whose map is another one: more of a small picture than of a large one.
 constexpr double mean_bar = .4, p999_bar = 5, small_p999_bar = 13;
 
 struct Studio
@@ -20,7 +20,11 @@ struct Studio
 
     stage::FrameRequest request(double day = 3) const
     {
-        return {.day = day, .tile = stage.scene().size, .every_frame = false, .light_stands = true, .radiance = false};
+        return {.day = day,
+                .tile = stage.scene().size,
+                .every_frame = false,
+                .light_stands = true,
+                .radiance = false};
     }
     gpu::FrameResult draw(const stage::FrameRequest& request)
     {
@@ -28,7 +32,10 @@ struct Studio
         graph.readback("picture", stage.declare(graph, request).images.picture);
         return executor.run(graph);
     }
-    stage::KeptLightError error(double day = 3) { return stage::measure_kept_light(executor, stage, request(day)); }
+    stage::KeptLightError error(double day = 3)
+    {
+        return stage::measure_kept_light(executor, stage, request(day));
+    }
     head::Camera turned(double metres) const
     {
         head::Camera camera = stage.loaded().camera();
@@ -101,7 +108,8 @@ TEST(KeptLight, IsThatOfEachTransportLightAndHighlight)
 TEST(KeptLight, StandsWhileACameraMoves)
 {
     Studio studio(small_scene());
-    EXPECT_THAT(ran(studio.draw(studio.request())), testing::IsSupersetOf({"shadow", "skin", "skin light", "forward"}));
+    EXPECT_THAT(ran(studio.draw(studio.request())),
+                testing::IsSupersetOf({"shadow", "skin", "skin light", "forward"}));
     EXPECT_THAT(ran(studio.draw(studio.request())), testing::IsEmpty());
     stage::FrameRequest request = studio.request();
     request.camera = studio.turned(.002);
@@ -152,7 +160,8 @@ TEST(KeptLight, IsNotUsedWhereItCannotBeTrue)
     scene = small_scene();
     EXPECT_TRUE(kept());
     EXPECT_TRUE(studio.stage.light_scale(studio.stage.loaded().camera(), 256));
-    EXPECT_FALSE(studio.stage.light_scale(studio.stage.loaded().camera(), 100000)) << "finer than the atlas can be";
+    EXPECT_FALSE(studio.stage.light_scale(studio.stage.loaded().camera(), 100000))
+        << "finer than the atlas can be";
 }
 
 TEST(KeptLight, HeadsWhoseCoordinatesAreUselessAreChartedAnew)

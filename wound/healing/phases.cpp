@@ -67,7 +67,8 @@ Phase phase_at(double day, double closure_day, double age_days)
     const auto since_photo = [&](const auto& course) {
         return std::max(along(course, now) - along(course, then), 0.);
     };
-    // All of a photographed slough granulates in the end, but a bed that had granulated by then changes little.
+    // All of a photographed slough granulates in the end, but a bed that had granulated by then changes
+    // little.
     constexpr double least_left = .25;
     const double left = std::max(1 - along(granulation_course, then), least_left);
     return {since_photo(clot_course), since_photo(fibrin_course), since_photo(granulation_course) / left,

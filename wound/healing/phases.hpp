@@ -37,8 +37,8 @@ PhaseDays phase_days(double closure_day);
 /// Median luminance of the open bed, the reference for dark and pale texels. 0 if the mask is empty.
 double bed_luminance(const Patch& patch);
 
-/// Linear colour of a bed texel at that phase. `around`: the bed's mean colour near the texel, which decides what
-/// it turns into, so that patches have soft edges.
+/// Linear colour of a bed texel at that phase. `around`: the bed's mean colour near the texel, which decides
+/// what it turns into, so that patches have soft edges.
 cv::Vec3d tinted(const cv::Vec3d& color, const cv::Vec3d& around, const Phase& phase, double bed_luminance);
 
 } // namespace wound

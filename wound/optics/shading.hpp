@@ -23,15 +23,27 @@ namespace optics {
 #define MODEL_NAME(number, enumerator, name, constant) #name,
 
 /// What each model is, and its name in scene files, stands in shaders/shared/shading.h.
-enum class WardModel : std::uint32_t { WARD_MODELS(MODEL_ENUMERATOR) };
+enum class WardModel : std::uint32_t
+{
+    WARD_MODELS(MODEL_ENUMERATOR)
+};
 enum class SpecularModel : std::uint32_t
 {
     SPECULAR_MODELS(MODEL_ENUMERATOR)
 };
-enum class TranslucencyModel : std::uint32_t { TRANSLUCENCY_MODELS(MODEL_ENUMERATOR) };
-enum class BlendModel : std::uint32_t { BLEND_MODELS(MODEL_ENUMERATOR) };
+enum class TranslucencyModel : std::uint32_t
+{
+    TRANSLUCENCY_MODELS(MODEL_ENUMERATOR)
+};
+enum class BlendModel : std::uint32_t
+{
+    BLEND_MODELS(MODEL_ENUMERATOR)
+};
 /// How light that enters the skin comes out again.
-enum class Transport : std::uint32_t { TRANSPORTS(MODEL_ENUMERATOR) };
+enum class Transport : std::uint32_t
+{
+    TRANSPORTS(MODEL_ENUMERATOR)
+};
 
 /// By number.
 inline const std::vector<std::string> ward_model_names{WARD_MODELS(MODEL_NAME)},
@@ -156,9 +168,9 @@ struct ShadedPoint
     base::Color albedo{1, 1, 1};            // C of eq. (4)
     Finish finish;
     // What transport `preintegrated` asks for:
-    std::optional<cv::Vec3d> smooth{};             // unit normal without a normal map; none: the frame's
-    cv::Vec2d curvature{0, 0};                     // 1/m, of the smooth surface: mean, root mean square
-    base::Color scattering_length_mm{0, 0, 0};     // scattering_length_mm() (transport.hpp)
+    std::optional<cv::Vec3d> smooth{};         // unit normal without a normal map; none: the frame's
+    cv::Vec2d curvature{0, 0};                 // 1/m, of the smooth surface: mean, root mean square
+    base::Color scattering_length_mm{0, 0, 0}; // scattering_length_mm() (transport.hpp)
 };
 /// What transport `preintegrated` has of a light's shadow map.
 struct ShadowMap

@@ -81,8 +81,8 @@ double scar_blood(double skin_blood, double day, double closure_day)
 }
 
 // Collagen of new tissue lies in dense parallel bundles, which scatter more than the dermis. Its many vessels
-// carry little-used blood. Our choice, so that a scar is red rather than brown in its first months and ends as
-// light as the skin (docs/optics.md, section 6).
+// carry little-used blood. Our choice, so that a scar is red rather than brown in its first months and ends
+// as light as the skin (docs/optics.md, section 6).
 Layer scar_tissue(const ChromophoreSkin& skin, double day, double closure_day)
 {
     Chromophores content = skin.dermis;

@@ -99,8 +99,8 @@ cv::Mat3f coarse(const cv::Mat3f& lab, int size)
     return result;
 }
 
-/// Factor on the contrast beside skin of that lightness: in shade and on dark skin all differences of colour shrink
-/// with the light that comes back.
+/// Factor on the contrast beside skin of that lightness: in shade and on dark skin all differences of colour
+/// shrink with the light that comes back.
 float in_full_light(float lightness)
 {
     constexpr float lit = 60, most = 1.5F; // CIELAB; noise does not shrink, so the factor has a limit

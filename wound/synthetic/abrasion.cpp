@@ -35,7 +35,8 @@ void scrape(const TissuePainter& painter, Tissue& skin, const Place& place, floa
     // Dried serum and blood, honey to brown.
     const float crust = base::smoothstep(.15f, .6f, painter.noise(place.p, .5f, 23, 3) + .3f * fine) * raw;
     skin.reflectance =
-        mix(skin.reflectance, mix(cv::Vec3f(.36f, .16f, .055f), cv::Vec3f(.12f, .032f, .018f), deep), .5f * crust);
+        mix(skin.reflectance, mix(cv::Vec3f(.36f, .16f, .055f), cv::Vec3f(.12f, .032f, .018f), deep),
+            .5f * crust);
     raise(skin, .06f * crust);
     skin.wetness *= 1 - .7f * crust;
 }

@@ -34,7 +34,8 @@ WoundKind burn()
         const float sheet = base::smoothstep(-.06f, .16f, over),
                     curl = sheet * base::smoothstep(.3f, .08f, over);
         const cv::Vec3f roof = mix(painter.skin(place).reflectance, {.74f, .64f, .50f}, .55f);
-        tissue.reflectance = mix(tissue.reflectance, roof * (1 + .12f * mottle), sheet * (.42f + .25f * curl));
+        tissue.reflectance =
+            mix(tissue.reflectance, roof * (1 + .12f * mottle), sheet * (.42f + .25f * curl));
         tissue.layer -= .45f * sheet * tissue.layer;
         raise(tissue, .22f * curl + .06f * sheet * mottle);
         tissue.wetness *= 1 - .75f * sheet;

@@ -30,7 +30,8 @@ WoundKind ulcer()
     const auto beside = [](const TissuePainter& painter, Tissue& skin, const Place& place) {
         const float out = -place.inside_mm;
         const float roll = (out - .7f) / .75f,
-                    rolled = std::exp(-roll * roll) * std::clamp(.6f + 2.2f * place.slow[Stretch], .05f, 1.2f);
+                    rolled =
+                        std::exp(-roll * roll) * std::clamp(.6f + 2.2f * place.slow[Stretch], .05f, 1.2f);
         skin.layer -= .13f * rolled;
         skin.reflectance =
             mix(skin.reflectance, {.76f, .55f, .49f},
