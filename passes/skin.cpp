@@ -13,9 +13,11 @@
 namespace passes {
 namespace {
 
-constexpr double most_texels = 16e6; // of each map
-constexpr double pixels_per_texel =
-    2;                             // at most, where the camera is nearest; a wound's texels are half as wide
+constexpr double most_texels = 8e6; // of each map: 28 bytes all together
+constexpr double longest_side = 8192;
+// Pixels of a texel's width where the camera is nearest; a wound's texels are half as wide. Wider ones than
+// wanted are taken when the wanted ones would be too many.
+constexpr double wanted_pixels = 2, most_pixels = 4;
 constexpr float longest_miter = 2; // of a skirt, in its widths
 
 struct SkinVertex
@@ -274,13 +276,16 @@ std::optional<double> atlas_scale(const Skin& skin, std::span<const Bounds> head
         nearest = std::min(nearest, glm::distance(camera.eye, inside));
     }
     const double pixel_m = 2 * std::tan(glm::radians(camera.fov_deg) / 2) * nearest / height;
+    std::optional<double> finest;
     for (double scale = head::smallest_atlas_scale; scale <= head::largest_atlas_scale; scale *= 2) {
-        if (double(skin.size.x) * double(skin.size.y) * scale * scale > most_texels)
+        const glm::dvec2 size = scale * glm::dvec2(skin.size);
+        if (size.x * size.y > most_texels || std::max(size.x, size.y) > longest_side)
             break;
-        if (skin.texel_m / scale <= pixels_per_texel * pixel_m)
+        finest = scale;
+        if (skin.texel_m / scale <= wanted_pixels * pixel_m)
             return scale;
     }
-    return std::nullopt;
+    return finest && skin.texel_m / *finest <= most_pixels * pixel_m ? finest : std::nullopt;
 }
 
 } // namespace passes

@@ -45,8 +45,8 @@ std::shared_ptr<const Skin> upload_skin(const gpu::Device& device, const Head& h
                                         const head::Atlas& atlas, std::span<const WoundReach> wounds);
 
 /// The least scale of the atlas at which a texel is no wider than two pixels, and a wound's no wider than
-/// one, where the camera is nearest to the head; none when that would take too many texels. `height`: of the
-/// whole picture, pixels.
+/// one, where the camera is nearest to the head; when that would take too many texels the largest scale that
+/// does not, if its texels are no wider than twice that; else none. `height`: of the whole picture, pixels.
 std::optional<double> atlas_scale(const Skin& skin, std::span<const Bounds> head, const head::Camera& camera,
                                   std::uint32_t height);
 
