@@ -29,17 +29,24 @@ cv::Vec<double, channels> sample(const cv::Mat& image, cv::Point2d uv)
            fy * ((1 - fx) * Value(below[x0]) + fx * Value(below[x1]));
 }
 
-/// Interpolates between the levels of mip_levels(). `lod` 0 is the image itself; larger values are clamped.
-template <int channels>
-cv::Vec<double, channels> sample(const std::vector<cv::Mat>& levels, cv::Point2d uv, double lod)
+/// Interpolates what `sample_level` says of the levels of mip_levels(). `lod` 0 is the image itself; larger
+/// values are clamped.
+template <typename SampleLevel>
+auto between_levels(const std::vector<cv::Mat>& levels, double lod, const SampleLevel& sample_level)
 {
     const double level = std::clamp(lod, 0., static_cast<double>(levels.size() - 1));
     const auto finer = static_cast<std::size_t>(level);
     const double toward_coarser = level - static_cast<double>(finer);
-    const cv::Vec<double, channels> value = sample<channels>(levels[finer], uv);
+    const auto value = sample_level(levels[finer]);
     if (toward_coarser == 0)
         return value;
-    return (1 - toward_coarser) * value + toward_coarser * sample<channels>(levels[finer + 1], uv);
+    return decltype(value)((1 - toward_coarser) * value + toward_coarser * sample_level(levels[finer + 1]));
+}
+
+template <int channels>
+cv::Vec<double, channels> sample(const std::vector<cv::Mat>& levels, cv::Point2d uv, double lod)
+{
+    return between_levels(levels, lod, [&](const cv::Mat& level) { return sample<channels>(level, uv); });
 }
 
 /// One level smoothed by a cubic B-spline, whose slope has no kinks at the texels' centres.
@@ -69,13 +76,8 @@ cv::Vec<double, channels> sample_smooth(const cv::Mat& image, cv::Point2d uv)
 template <int channels>
 cv::Vec<double, channels> sample_smooth(const std::vector<cv::Mat>& levels, cv::Point2d uv, double lod)
 {
-    const double level = std::clamp(lod, 0., static_cast<double>(levels.size() - 1));
-    const auto finer = static_cast<std::size_t>(level);
-    const double toward_coarser = level - static_cast<double>(finer);
-    const cv::Vec<double, channels> value = sample_smooth<channels>(levels[finer], uv);
-    if (toward_coarser == 0)
-        return value;
-    return (1 - toward_coarser) * value + toward_coarser * sample_smooth<channels>(levels[finer + 1], uv);
+    return between_levels(levels, lod,
+                          [&](const cv::Mat& level) { return sample_smooth<channels>(level, uv); });
 }
 
 } // namespace base

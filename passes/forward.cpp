@@ -89,7 +89,7 @@ void confine_skin(graph::RasterPass& pass, const ForwardInput& input, const shar
                   const graph::ImageDesc& target)
 {
     graph::Region all;
-    for (const ForwardWound& wound : input.kept_wounds)
+    for (const ForwardWound& wound : input.kept->wounds)
         all = bounds(all, pixels_of(wound, view, target.width, target.height));
     for (const graph::ImageId image : {input.kept->light, input.kept->normal, input.kept->gloss})
         pass.confine(image, input.kept->wounded, all);
@@ -155,12 +155,12 @@ void draw_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput
 }
 
 /// The skin, with the light that is kept on it.
-void draw_skin(graph::RasterPass& pass, const ForwardInput& input, const Skin& skin, const SkinLight& kept,
+void draw_skin(graph::RasterPass& pass, const ForwardInput& input, const SkinLight& kept,
                const optics::Shading& shading)
 {
-    for (const SkinDraw& shown : skin.shown) {
+    for (const SkinDraw& shown : kept.skin.shown) {
         graph::Draw& draw = pass.draw("skin");
-        draw.mesh = skin.mesh.get();
+        draw.mesh = kept.skin.mesh.get();
         draw.first_index = shown.first_index;
         draw.index_count = shown.index_count;
         const shared::Part params =
@@ -206,13 +206,14 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
     pass.uniform("Develop_", input.developed.value_or(shared::Develop{}));
     std::vector<HeadPart> parts = input.head.parts, rest;
     if (input.kept) {
-        draw_skin(pass, input, *input.skin, *input.kept, shading);
+        const Skin& skin = input.kept->skin;
+        draw_skin(pass, input, *input.kept, shading);
         std::erase_if(parts, [&](const HeadPart& part) {
-            return std::ranges::find(input.skin->materials, part.material) != input.skin->materials.end();
+            return std::ranges::find(skin.materials, part.material) != skin.materials.end();
         });
-        rest = input.skin->rest;
+        rest = skin.rest;
         if (!rest.empty())
-            draw_parts(graph, pass, input, *input.skin->rest_mesh, rest, shading);
+            draw_parts(graph, pass, input, *skin.rest_mesh, rest, shading);
     }
     draw_parts(graph, pass, input, *input.head.mesh, parts, shading);
     if (!parts.empty() || !rest.empty())

@@ -41,7 +41,6 @@ struct WoundUniform
 };
 WoundUniform wound_frames(std::span<const ForwardWound> wounds);
 
-struct Skin;
 struct SkinLight;
 
 struct ForwardInput
@@ -53,9 +52,7 @@ struct ForwardInput
     graph::ImageId shadow_depth;               // used when a light casts a shadow
     bool every_frame = true;                   // run the pass even when nothing has changed
     base::Color scattering_length_mm{0, 0, 0}; // of the skin (optics/transport.hpp)
-    const Skin* skin = nullptr; // the light of `kept` is on it; else light is computed per pixel
-    const SkinLight* kept = nullptr;
-    std::span<const ForwardWound> kept_wounds; // on the skin, whether a camera sees them or not
+    const SkinLight* kept = nullptr;           // light on the skin; null: computed in every pixel
     std::optional<shared::Develop> developed;  // for opaque parts, a backdrop and one sample
 };
 

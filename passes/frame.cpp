@@ -54,24 +54,18 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
     std::ranges::copy_if(input.lights, std::back_inserter(lights),
                          [](const optics::Light& light) { return light.strength != base::Color(0, 0, 0); });
     ForwardInput forward{input.head, seen, lights, {}, {}, input.every_frame, input.scattering_length_mm};
-    std::optional<double> scale;
-    if (input.skin && placed.size() <= shared::MAX_WOUNDS)
-        scale = input.skin_scale
-                    ? input.skin_scale
-                    : atlas_scale(*input.skin, input.head.boxes, input.camera, input.tile.picture[1]);
     const bool lit = input.shading.lambertian() || input.shading.glossy();
     std::optional<SkinLight> kept;
-    if (scale) {
+    if (input.skin && placed.size() <= shared::MAX_WOUNDS) {
         if (input.shading.shadow && lit) // camera or not: the shadows stand as the light does
             forward.shadows = fit_shadows(lights, input.head.min, input.head.max, {}, kept_shadow_size);
         if (can_keep_light(input.shading, forward.shadows)) {
             add_shadow_depth(graph, input, forward, kept_shadow_size);
             ForwardInput all = forward;
             all.wounds = placed;
-            kept = add_skin_light(graph, all, *input.skin, *scale, input.shading, input.exposure_stops);
-            forward.skin = input.skin;
+            kept.emplace(add_skin_light(graph, all, *input.skin, input.skin_scale, input.shading,
+                                        input.exposure_stops));
             forward.kept = &*kept;
-            forward.kept_wounds = placed;
         }
     }
     if (!kept) {

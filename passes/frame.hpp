@@ -1,6 +1,5 @@
 // Declares a frame: its passes and the images that they exchange.
 #pragma once
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,8 +40,8 @@ struct FrameInput
     /// Of `head` and its wounds: light is kept on it where that can be done, for frames between which it
     /// stands. Null: light is computed in every pixel.
     const Skin* skin = nullptr;
-    std::optional<double> skin_scale; // of the atlas; none: atlas_scale()
-    bool radiance = true;             // FrameImages::radiance is needed
+    double skin_scale = 0; // of its atlas; with `skin`, atlas_scale()
+    bool radiance = true;  // FrameImages::radiance is needed
 };
 
 struct FrameImages

@@ -67,11 +67,12 @@ SkinLight add_skin_light(graph::Graph& graph, const ForwardInput& input, const S
     // computes.
     const graph::ImageDesc fine{size.x, size.y, VK_FORMAT_R16G16B16A16_SFLOAT};
     const graph::ImageId albedo = graph.image("skin albedo", fine), normal = graph.image("skin normal", desc);
-    SkinLight kept{graph.image("skin light", fine),
-                   graph.image("lit skin normal", desc),
-                   graph.image("skin gloss", desc),
-                   {brightest(input, shading, exposure_stops)},
-                   {}};
+    SkinLight kept{.light = graph.image("skin light", fine),
+                   .normal = graph.image("lit skin normal", desc),
+                   .gloss = graph.image("skin gloss", desc),
+                   .code = {brightest(input, shading, exposure_stops)},
+                   .skin = skin,
+                   .wounds = input.wounds};
     const glm::uvec2 corner(glm::dvec2(skin.wounded_corner) * scale),
         wounded(glm::ceil(glm::dvec2(skin.wounded_size) * scale));
     kept.wounded = {corner.x, corner.y, wounded.x, wounded.y};

@@ -19,7 +19,9 @@ struct SkinLight
     graph::ImageId
         gloss; // wetness, tautness, slope variance, occlusion by the wound's hollow (lib/skin_code.glsl)
     shared::LightCode code;
-    graph::Region wounded; // of these images: what a new day can change
+    const Skin& skin;
+    std::span<const ForwardWound> wounds; // on the skin, whether a camera sees them or not
+    graph::Region wounded;                // of these images: what a new day can change
 };
 
 /// Whether the skin's passes can draw this: the transport does not depend on the vertices, the highlight is

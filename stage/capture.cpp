@@ -203,7 +203,8 @@ class Capture
                                  film_frames(options_)};
         DrawOptions frame_options = draw_options_;
         frame_options.radiance = frame_options.areas = false;
-        frame_options.light_stands = sweep.first_day == sweep.last_day; // a turntable
+        if (sweep.first_day == sweep.last_day) // a turntable
+            frame_options.light_scale = stage_.light_scale(view.camera, frame_options.size[1]);
         const std::filesystem::path path = film_path(options_.video, view.name);
         base::Film film(path, frame_options.size, options_.fps);
         json record{{"file", path.string()}, {"fps", options_.fps}, {"frames", json::array()}};

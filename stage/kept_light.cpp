@@ -33,9 +33,10 @@ base::Lab lab_of(const cv::Vec4b& pixel)
 KeptLightError measure_kept_light(gpu::Executor& executor, const Stage& stage, FrameRequest request)
 {
     request.tile.transparent = true;
-    request.light_stands = true;
+    request.light_scale =
+        stage.light_scale(request.camera.value_or(stage.loaded().camera()), request.tile.picture[1]);
     const Drawn kept = drawn(executor, stage, request);
-    request.light_stands = false;
+    request.light_scale.reset();
     const Drawn exact = drawn(executor, stage, request);
 
     KeptLightError error{.kept = kept.kept, .de = cv::Mat1f::zeros(exact.picture.size())};

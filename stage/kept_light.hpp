@@ -1,4 +1,4 @@
-// What it costs a picture that light is kept on the skin (FrameRequest::light_stands) instead of computed in
+// What it costs a picture that light is kept on the skin (FrameRequest::light_scale) instead of computed in
 // every pixel.
 #pragma once
 #include <opencv2/core.hpp>

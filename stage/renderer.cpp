@@ -99,7 +99,7 @@ Drawing draw(Renderer& renderer, const Stage& stage, const scene::Shot& shot, co
                                                      .tile = tile,
                                                      .camera = shot.camera,
                                                      .every_frame = false,
-                                                     .light_stands = options.light_stands,
+                                                     .light_scale = options.light_scale,
                                                      .radiance = options.radiance});
         const passes::FrameImages& images = declared.images;
         drawing.wounds = declared.wounds;

@@ -39,7 +39,7 @@ struct DrawOptions
     bool areas = true;         // fill Drawing::bed_texels
     std::uint32_t tile = 2048; // pictures with a longer side are drawn in tiles; even
     std::uint32_t apron = 0;   // ViewportTile::apron; even
-    bool light_stands = false; // FrameRequest::light_stands
+    std::optional<double> light_scale; // FrameRequest::light_scale
 };
 
 struct Drawing

@@ -249,7 +249,7 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
         graph.keep(wound.maps.shape);
     }
     graph.keep(set_.wounded);
-    const passes::Skin* kept = request.light_stands && !dragging_ ? skin() : nullptr;
+    const passes::Skin* kept = request.light_scale ? skin() : nullptr;
     if (kept)
         graph.keep(spread_.skin);
     frame.images = passes::add_frame(graph, {.head = *set_.wounded,
@@ -264,7 +264,7 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
                                              .every_frame = request.every_frame,
                                              .scattering_length_mm = scattering_length_mm(shading),
                                              .skin = kept,
-                                             .skin_scale = request.light_scale,
+                                             .skin_scale = request.light_scale.value_or(0),
                                              .radiance = request.radiance});
     return frame;
 }

@@ -33,11 +33,10 @@ struct FrameRequest
     /// Draw the head even when nothing has changed, for measurements. A window sets it to false, so that no
     /// pass runs when nothing has changed (gpu::Executor::up_to_date).
     bool every_frame = true;
-    /// More frames with the same light follow: it is kept on the skin, which costs this frame more and those
-    /// less. Not while something is dragged.
-    bool light_stands = false;
-    std::optional<double> light_scale; // of the skin's atlas; none: Stage::light_scale()
-    bool radiance = true;              // FrameImages::radiance is needed
+    /// Scale of the skin's atlas on which light is kept for this and further frames with the same light: this
+    /// one costs more, those less. Stage::light_scale(); none: light is computed in every pixel.
+    std::optional<double> light_scale;
+    bool radiance = true; // FrameImages::radiance is needed
 };
 
 struct Frame

@@ -212,10 +212,10 @@ bool DemoWindow::render()
 void DemoWindow::watch_light(std::uint32_t height)
 {
     const double now = now_s();
-    scene::Scene lit = stage_->scene();
-    lit.camera = {};
-    if (compared_ || stage_->pending() || light_.day != state_.playback.day || light_.scene != lit)
-        light_ = {std::move(lit), state_.playback.day, now, false, std::nullopt};
+    light_.scene.camera = stage_->scene().camera; // does not concern the light
+    if (compared_ || stage_->pending() || light_.day != state_.playback.day ||
+        light_.scene != stage_->scene())
+        light_ = {stage_->scene(), state_.playback.day, now, false, std::nullopt};
     else if (now >= light_.since + light_rest_s && quality_.scale(now) == 1 && !state_.moving) {
         light_.rested = true;
         light_.scale = stage_->light_scale(stage_->loaded().camera(), height);
@@ -230,12 +230,8 @@ DemoWindow::Drawn DemoWindow::draw_picture(double scale)
                                             std::max(16u, std::uint32_t(std::lround(full[1] * scale)))};
     graph::Graph graph;
     const double day = state_.playback.day;
-    const stage::FrameRequest now{.day = day,
-                                  .tile = size,
-                                  .every_frame = false,
-                                  .light_stands = light_.scale.has_value(),
-                                  .light_scale = light_.scale,
-                                  .radiance = false};
+    const stage::FrameRequest now{
+        .day = day, .tile = size, .every_frame = false, .light_scale = light_.scale, .radiance = false};
     stage::FrameRequest other = now;
     other.day = compared_day(day);
     const graph::ImageId picture =

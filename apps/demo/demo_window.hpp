@@ -115,7 +115,7 @@ class DemoWindow
     /// scale of the atlas it was last drawn at rest. While a camera moves the scale stays.
     struct StandingLight
     {
-        scene::Scene scene; // without its camera
+        scene::Scene scene; // its camera does not matter
         double day = -1, since = 0;
         bool rested = false;
         std::optional<double> scale;

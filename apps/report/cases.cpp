@@ -53,12 +53,14 @@ std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage, const std::ve
     constexpr double arc_deg = 40, tint = 0.2;
     const auto declare = [&stage](graph::Graph& graph, double day, const head::Camera& camera,
                                   bool light_stands = false) {
-        const stage::FrameRequest request{.day = day,
-                                          .tile = stage.scene().size,
-                                          .camera = camera,
-                                          .every_frame = false,
-                                          .light_stands = light_stands,
-                                          .radiance = false};
+        const stage::FrameRequest request{
+            .day = day,
+            .tile = stage.scene().size,
+            .camera = camera,
+            .every_frame = false,
+            .light_scale = light_stands ? stage.light_scale(stage.loaded().camera(), stage.scene().size[1])
+                                        : std::nullopt,
+            .radiance = false};
         const graph::ImageId picture = stage.declare(graph, request).images.picture;
         graph.present(picture);
         return picture;

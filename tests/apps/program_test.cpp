@@ -15,7 +15,6 @@
 #include "tests/support/process.hpp"
 #include "tests/support/small_head.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "wound/synthetic/kind.hpp"
 
 namespace {
 
@@ -101,23 +100,6 @@ class Program : public testing::Test
 };
 
 } // namespace
-
-TEST_F(Program, DrawsAPageOfAllKindsOfWound)
-{
-    const Outcome outcome = on_the_head({"--gallery", "--size", "100x80", "--days", "0,9"});
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_THAT(files_in(file("out")), UnorderedElementsAre("gallery.png", "gallery.json"));
-    const auto record = json::parse(bytes_of(file("out/gallery.json")));
-    EXPECT_EQ(record.at("pictures").size(), 2 * wound::kind_names().size());
-    for (const auto& picture : record.at("pictures"))
-        EXPECT_EQ(picture.at("unhealed_ratio") == 1, picture.at("day") == 0) << picture;
-    EXPECT_GT(base::read_rgb(file("out/gallery.png")).rows, int(wound::kind_names().size()) * 80);
-}
-
-TEST_F(Program, AGalleryIsNoFilm)
-{
-    expect_refusal(on_the_head({"--gallery", "--orbit", "4"}), {"--gallery", "--orbit"});
-}
 
 TEST_F(Program, CapturesAHealingWound)
 {

@@ -25,15 +25,6 @@ glm::dvec2 seen_at(const stage::Stage& stage, const head::Camera& camera, const 
     return glm::dvec2(clip.x, clip.y) / clip.w;
 }
 
-std::vector<std::string> ran(const gpu::FrameResult& frame)
-{
-    std::vector<std::string> names;
-    for (const gpu::PassResult& pass : frame.passes)
-        if (pass.state == graph::PassState::Run)
-            names.push_back(pass.name);
-    return names;
-}
-
 using EditTest = gpu_test::Test;
 
 } // namespace
@@ -169,11 +160,11 @@ TEST_F(EditTest, TwoSettingsAreShownSideBySide)
     };
     const cv::Mat first = single(left, 3), second = single(right, 9);
     ASSERT_GT(cv::norm(first, second, cv::NORM_INF), 30);
-    EXPECT_THAT(ran(both(.25)),
+    EXPECT_THAT(gpu_test::ran(both(.25)),
                 testing::AllOf(Contains("forward"), Contains("right forward"), Contains("split")));
     for (const double divider : {0., .3, .6, 1.}) {
         const gpu::FrameResult frame = both(divider);
-        EXPECT_THAT(ran(frame), UnorderedElementsAre("split")) << "nothing else has changed";
+        EXPECT_THAT(gpu_test::ran(frame), UnorderedElementsAre("split")) << "nothing else has changed";
         const int border = cvRound(divider * first.cols);
         const cv::Range before(0, border), after(border, first.cols);
         EXPECT_EQ(border == 0 ? 0 : cv::norm(frame.mat({0}).colRange(before), first.colRange(before)), 0);

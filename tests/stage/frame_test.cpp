@@ -39,20 +39,6 @@ struct Studio
     optics::Shading shading;
 };
 
-std::vector<std::string> passes_in(const gpu::FrameResult& frame, PassState state)
-{
-    std::vector<std::string> names;
-    for (const gpu::PassResult& pass : frame.passes)
-        if (pass.state == state)
-            names.push_back(pass.name);
-    return names;
-}
-
-std::vector<std::string> ran(const gpu::FrameResult& frame)
-{
-    return passes_in(frame, PassState::Run);
-}
-
 double share_that_differs(const cv::Mat4b& a, const cv::Mat4b& b, int by_more_than)
 {
     cv::Mat difference;
@@ -102,37 +88,38 @@ using Frame = gpu_test::Test;
 TEST_F(Frame, RerunsOnlyPassesThatAChangeAffects)
 {
     Studio studio(small::scene(small::head()));
-    EXPECT_THAT(ran(studio.draw(3)), UnorderedElementsAre("wound_texture", "wound_relief", "reflectance_lut",
-                                                          "shadow", "forward", "tonemap"));
+    EXPECT_THAT(gpu_test::ran(studio.draw(3)),
+                UnorderedElementsAre("wound_texture", "wound_relief", "reflectance_lut", "shadow", "forward",
+                                     "tonemap"));
 
     const gpu::FrameResult unchanged = studio.draw(3);
-    EXPECT_THAT(ran(unchanged), UnorderedElementsAre("forward", "tonemap"));
-    EXPECT_THAT(passes_in(unchanged, PassState::Skipped),
+    EXPECT_THAT(gpu_test::ran(unchanged), UnorderedElementsAre("forward", "tonemap"));
+    EXPECT_THAT(gpu_test::passes_in(unchanged, PassState::Skipped),
                 UnorderedElementsAre("wound_texture", "wound_relief", "reflectance_lut", "shadow"));
 
-    EXPECT_THAT(ran(studio.draw(4)),
+    EXPECT_THAT(gpu_test::ran(studio.draw(4)),
                 UnorderedElementsAre("wound_texture", "wound_relief", "forward", "tonemap"));
 
     scene::Scene scene = studio.stage.scene();
     std::vector<scene::Light>& lights = scene.lights;
     lights[0].intensity *= 0.5;
     studio.stage.update(scene);
-    EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("forward", "tonemap"));
+    EXPECT_THAT(gpu_test::ran(studio.draw(4)), UnorderedElementsAre("forward", "tonemap"));
 
     lights[0].from.azimuth_deg += 10; // every light casts a shadow
     studio.stage.update(scene);
-    EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("shadow", "forward", "tonemap"));
+    EXPECT_THAT(gpu_test::ran(studio.draw(4)), UnorderedElementsAre("shadow", "forward", "tonemap"));
 
     lights[1].from.azimuth_deg += 10;
     studio.stage.update(scene);
-    EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("shadow", "forward", "tonemap"));
+    EXPECT_THAT(gpu_test::ran(studio.draw(4)), UnorderedElementsAre("shadow", "forward", "tonemap"));
 
     studio.stage.set_tissue(optics::skin(optics::SkinTone::Dark));
-    EXPECT_THAT(ran(studio.draw(4)), UnorderedElementsAre("reflectance_lut", "forward", "tonemap"));
+    EXPECT_THAT(gpu_test::ran(studio.draw(4)), UnorderedElementsAre("reflectance_lut", "forward", "tonemap"));
 
     studio.shading.shadow = false;
     const gpu::FrameResult unshadowed = studio.draw(4);
-    EXPECT_THAT(ran(unshadowed), UnorderedElementsAre("forward", "tonemap"));
+    EXPECT_THAT(gpu_test::ran(unshadowed), UnorderedElementsAre("forward", "tonemap"));
     EXPECT_EQ(unshadowed.passes.size(), 6u) << "no shadow pass is declared, and the labels are culled";
 }
 
@@ -156,7 +143,7 @@ TEST_F(Frame, TakesANumericalReflectanceTableFromTheCpu)
     scene.reflectance_model = optics::ReflectanceModel::AddingDoubling;
     Studio numerical(scene);
     ::unsetenv("XDG_CACHE_HOME");
-    EXPECT_THAT(ran(numerical.draw(9)),
+    EXPECT_THAT(gpu_test::ran(numerical.draw(9)),
                 UnorderedElementsAre("wound_texture", "wound_relief", "shadow", "forward", "tonemap"));
     const cv::Mat4b a = calibrated.picture(9), b = numerical.picture(9);
     EXPECT_GT(share_that_differs(a, b, 0), 0.001) << "another model gives another colour";
@@ -171,9 +158,9 @@ TEST_F(Frame, RerunsPassesOnlyForWoundsThatTheDayChanges)
     scene.wounds[1].healing.curve.delta = 0; // never heals
     scene.wounds[1].healing.model = wound::HealingModel::Contraction;
     Studio studio(scene);
-    EXPECT_THAT(ran(studio.draw(3)),
+    EXPECT_THAT(gpu_test::ran(studio.draw(3)),
                 IsSupersetOf({"wound_texture", "wound_texture 2", "reflectance_lut", "reflectance_lut 2"}));
-    EXPECT_THAT(ran(studio.draw(6)),
+    EXPECT_THAT(gpu_test::ran(studio.draw(6)),
                 UnorderedElementsAre("wound_texture", "wound_relief", "forward", "tonemap"));
 }
 
@@ -184,8 +171,8 @@ TEST_F(Frame, WithoutWoundsDeclaresNoneOfTheirPasses)
     Studio studio(scene);
     const gpu::FrameResult first = studio.draw(0);
     EXPECT_EQ(first.passes.size(), 4u) << "and the labels are culled";
-    EXPECT_THAT(ran(first), UnorderedElementsAre("shadow", "forward", "tonemap"));
-    EXPECT_THAT(ran(studio.draw(9)), UnorderedElementsAre("forward", "tonemap"));
+    EXPECT_THAT(gpu_test::ran(first), UnorderedElementsAre("shadow", "forward", "tonemap"));
+    EXPECT_THAT(gpu_test::ran(studio.draw(9)), UnorderedElementsAre("forward", "tonemap"));
 }
 
 TEST_F(Frame, IsTheSameBitByBitInTwoRuns)
@@ -230,7 +217,8 @@ TEST_F(Frame, LightsAndTermsThatGiveNothingCostNothing)
 
     optics::Shading published = scene.shading;
     published.transport = optics::Transport::Published; // so that there is a translucent term
-    const auto alike = [&](const char* constant, const auto& no_coefficient, const auto& off, shared::uint value = 0) {
+    const auto alike = [&](const char* constant, const auto& no_coefficient, const auto& off,
+                           shared::uint value = 0) {
         plain.shading = published;
         no_coefficient(plain.shading);
         const cv::Mat4b zero = plain.picture(3);
@@ -253,7 +241,7 @@ TEST_F(Frame, LightsAndTermsThatGiveNothingCostNothing)
 
     plain.shading = scene.shading;
     plain.shading.rho_d = plain.shading.rho_s = 0;
-    EXPECT_THAT(ran(plain.draw(3)), testing::Not(testing::Contains("shadow")));
+    EXPECT_THAT(gpu_test::ran(plain.draw(3)), testing::Not(testing::Contains("shadow")));
     EXPECT_EQ(forward_constants(plain, camera, "SHADOWS"), std::vector{0u});
 }
 

@@ -23,7 +23,7 @@ struct Studio
         return {.day = day,
                 .tile = stage.scene().size,
                 .every_frame = false,
-                .light_stands = true,
+                .light_scale = stage.light_scale(stage.loaded().camera(), stage.scene().size[1]),
                 .radiance = false};
     }
     gpu::FrameResult draw(const stage::FrameRequest& request)
@@ -50,15 +50,6 @@ struct Studio
 scene::Scene small_scene()
 {
     return small::scene(small::head());
-}
-
-std::vector<std::string> ran(const gpu::FrameResult& frame)
-{
-    std::vector<std::string> names;
-    for (const gpu::PassResult& pass : frame.passes)
-        if (pass.state == graph::PassState::Run)
-            names.push_back(pass.name);
-    return names;
 }
 
 const gpu::PassResult& pass(const gpu::FrameResult& frame, const std::string& name)
@@ -108,13 +99,13 @@ TEST(KeptLight, IsThatOfEachTransportLightAndHighlight)
 TEST(KeptLight, StandsWhileACameraMoves)
 {
     Studio studio(small_scene());
-    EXPECT_THAT(ran(studio.draw(studio.request())),
+    EXPECT_THAT(gpu_test::ran(studio.draw(studio.request())),
                 testing::IsSupersetOf({"shadow", "skin", "skin light", "forward"}));
-    EXPECT_THAT(ran(studio.draw(studio.request())), testing::IsEmpty());
+    EXPECT_THAT(gpu_test::ran(studio.draw(studio.request())), testing::IsEmpty());
     stage::FrameRequest request = studio.request();
     request.camera = studio.turned(.002);
     const gpu::FrameResult frame = studio.draw(request);
-    std::vector<std::string> passes = ran(frame);
+    std::vector<std::string> passes = gpu_test::ran(frame);
     std::erase(passes, "tonemap"); // of a head with blended parts
     EXPECT_THAT(passes, UnorderedElementsAre("forward"));
 }

@@ -28,14 +28,7 @@ struct Window
                            .images.picture);
         return graph;
     }
-    std::vector<std::string> ran()
-    {
-        std::vector<std::string> names;
-        for (const gpu::PassResult& pass : executor.run(frame()).passes)
-            if (pass.state == graph::PassState::Run)
-                names.push_back(pass.name);
-        return names;
-    }
+    std::vector<std::string> ran() { return gpu_test::ran(executor.run(frame())); }
     cv::Mat4b picture() { return executor.run(frame()).mat({0}).clone(); }
     bool up_to_date() { return executor.up_to_date(frame()); }
 

@@ -27,6 +27,15 @@ const graph::ShaderLibrary& shaders()
     return library;
 }
 
+std::vector<std::string> passes_in(const gpu::FrameResult& frame, graph::PassState state)
+{
+    std::vector<std::string> names;
+    for (const gpu::PassResult& pass : frame.passes)
+        if (pass.state == state)
+            names.push_back(pass.name);
+    return names;
+}
+
 void Test::TearDown()
 {
     for (const std::string& message : device().validation_messages())

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace graph {
 
@@ -21,6 +23,13 @@ gpu::Device& device();
 
 /// The shaders of shaders/ and of tests/shaders/.
 const graph::ShaderLibrary& shaders();
+
+/// Names of the frame's passes in that state.
+std::vector<std::string> passes_in(const gpu::FrameResult& frame, graph::PassState state);
+inline std::vector<std::string> ran(const gpu::FrameResult& frame)
+{
+    return passes_in(frame, graph::PassState::Run);
+}
 
 class Test : public testing::Test
 {
