@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "passes/diffusion.hpp"
 #include "passes/part_bindings.hpp"
 #include "passes/shading.hpp"
-#include "passes/skin_light.hpp"
 
 namespace passes {
 namespace {
@@ -38,18 +38,21 @@ shared::WoundFrame wound_frame(const ForwardWound& wound)
             .sheen = float(today.scar.sheen)};
 }
 
-/// The pixels in which a wound's images can show; all of them when the camera is inside the wound's reach.
-graph::Region pixels_of(const ForwardWound& wound, const shared::View& view, std::uint32_t width,
-                        std::uint32_t height)
+/// The pixels in which a wound's images can show, or light that has spread from there; all of them when the
+/// camera is inside the wound's reach.
+graph::Region pixels_of(const ForwardWound& wound, double reach_m, const shared::View& view,
+                        std::uint32_t width, std::uint32_t height)
 {
     constexpr double margin = 2; // pixels, for rounding
     const head::Anchor& anchor = wound.anchor;
     const glm::dvec2 scale(wound.texture.uv_scale), offset(wound.texture.uv_offset);
     glm::dvec2 low(width, height), high(0, 0);
     for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec2 side(corner & 1, corner >> 1 & 1);
+        const double reach = reach_m / anchor.half_width_m;
         const glm::dvec2 at =
-            (glm::dvec2(corner & 1, corner >> 1 & 1) - offset) / scale; // on the patch, -1..1 all of it
-        const double height_of = (corner & 4) != 0 ? head::Anchor::reach : -head::Anchor::reach;
+            (side - offset) / scale + (2. * side - 1.) * reach; // on the patch, -1..1 all of it
+        const double height_of = ((corner & 4) != 0 ? 1 : -1) * (head::Anchor::reach + reach);
         const glm::dvec3 point =
             anchor.centre +
             anchor.half_width_m * (at.x * anchor.right + at.y * anchor.down + height_of * anchor.normal);
@@ -75,7 +78,7 @@ void confine_wounds(graph::RasterPass& pass, std::span<const ForwardWound> wound
     for (const ForwardWound& wound : wounds) {
         if ((shown >> wound.index & 1) == 0)
             continue;
-        const graph::Region region = pixels_of(wound, view, target.width, target.height);
+        const graph::Region region = pixels_of(wound, 0, view, target.width, target.height);
         all = bounds(all, region);
         for (const graph::ImageId image : {wound.texture.color, wound.texture.state, wound.texture.relief})
             pass.confine(image, region);
@@ -84,15 +87,17 @@ void confine_wounds(graph::RasterPass& pass, std::span<const ForwardWound> wound
         pass.confine("Wounds_", all);
 }
 
-/// The same of the light that is kept on the skin.
-void confine_skin(graph::RasterPass& pass, const ForwardInput& input, const shared::View& view,
-                  const graph::ImageDesc& target)
+/// The same of images on the skin's atlas. `wounds`: all of the head's. `source`: what a new day can change
+/// of the images.
+void confine_skin(graph::RasterPass& pass, std::initializer_list<graph::ImageId> images,
+                  const graph::Region& source, double reach_m, std::span<const ForwardWound> wounds,
+                  const shared::View& view, const graph::ImageDesc& target)
 {
     graph::Region all;
-    for (const ForwardWound& wound : input.kept->wounds)
-        all = bounds(all, pixels_of(wound, view, target.width, target.height));
-    for (const graph::ImageId image : {input.kept->light, input.kept->normal, input.kept->gloss})
-        pass.confine(image, input.kept->wounded, all);
+    for (const ForwardWound& wound : wounds)
+        all = bounds(all, pixels_of(wound, reach_m, view, target.width, target.height));
+    for (const graph::ImageId image : images)
+        pass.confine(image, source, all);
 }
 
 } // namespace
@@ -124,7 +129,7 @@ void prepare_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardIn
                    const optics::Shading& shading)
 {
     pass.constant("LAMBERT", shading.lambertian());
-    pass.constant("TRANSPORT", std::uint32_t(shading.drawn_transport()));
+    pass.constant("TRANSPORT", std::uint32_t(shading.pointwise_transport()));
     pass.constant("NORMAL_MAP", shading.normal_map);
     pass.constant("BOUNCE", shading.bounce);
     pass.constant("TRANSLUCENCY_MODEL", std::uint32_t(shading.translucency_model));
@@ -135,13 +140,18 @@ void prepare_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardIn
                 graph::Sampler::NearestClamp);
 }
 
+const HeadPart& part_of(const ForwardInput& input, const SkinDraw& piece)
+{
+    return *std::ranges::find(input.head.parts, piece.material, &HeadPart::material);
+}
+
 /// Parts of the mesh whose light is computed in every pixel.
 void draw_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput& input,
-                const graph::Mesh& mesh, std::span<const HeadPart> parts, const optics::Shading& shading)
+                std::span<const HeadPart> parts, const optics::Shading& shading)
 {
     for (const HeadPart& part : parts) {
         graph::Draw& draw = pass.draw("forward");
-        draw.mesh = &mesh;
+        draw.mesh = input.head.mesh.get();
         draw.first_index = part.first_index;
         draw.index_count = part.index_count;
         draw.cull_back_faces = !part.double_sided;
@@ -154,6 +164,27 @@ void draw_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput
     }
 }
 
+/// Parts of the skin whose light is computed in every pixel, but for what comes from the surroundings.
+void draw_diffused(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput& input,
+                   std::span<const SkinDraw> pieces, const optics::Shading& shading)
+{
+    for (const SkinDraw& piece : pieces) {
+        graph::Draw& draw = pass.draw(input.around ? "diffused" : "forward");
+        draw.mesh = input.skin->mesh.get();
+        draw.first_index = piece.first_index;
+        draw.index_count = piece.index_count;
+        const HeadPart& part = part_of(input, piece);
+        const shared::Part params = part_params(part, shading);
+        draw.uniform("Part_", params);
+        draw.constant("WARD", shading.glossy() && params.specular > 0);
+        bind_part(graph, draw, input.head, part, piece.wounds, input.wounds, !input.around);
+        if (input.around) {
+            draw.constant("TRANSPORT", std::uint32_t(optics::Transport::Diffused));
+            draw.sample("diffused_light", input.around->light);
+        }
+    }
+}
+
 /// The skin, with the light that is kept on it.
 void draw_skin(graph::RasterPass& pass, const ForwardInput& input, const SkinLight& kept,
                const optics::Shading& shading)
@@ -163,8 +194,7 @@ void draw_skin(graph::RasterPass& pass, const ForwardInput& input, const SkinLig
         draw.mesh = kept.skin.mesh.get();
         draw.first_index = shown.first_index;
         draw.index_count = shown.index_count;
-        const shared::Part params =
-            part_params(*std::ranges::find(input.head.parts, shown.material, &HeadPart::material), shading);
+        const shared::Part params = part_params(part_of(input, shown), shading);
         draw.uniform("Part_", params);
         draw.uniform("Code_", kept.code);
         draw.constant("WARD", shading.glossy() && params.specular > 0);
@@ -204,31 +234,38 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
     pass.uniform("Shading_", shading_params(shading, input.scattering_length_mm));
     pass.uniform("Lighting_", lighting(input.lights));
     pass.uniform("Develop_", input.developed.value_or(shared::Develop{}));
-    std::vector<HeadPart> parts = input.head.parts, rest;
-    if (input.kept) {
-        const Skin& skin = input.kept->skin;
-        draw_skin(pass, input, *input.kept, shading);
+    std::vector<HeadPart> parts = input.head.parts;
+    std::vector<SkinDraw> lit; // skin whose light is computed in every pixel, with its place on the atlas
+    if (input.kept || input.around) {
         std::erase_if(parts, [&](const HeadPart& part) {
-            return std::ranges::find(skin.materials, part.material) != skin.materials.end();
+            return std::ranges::find(input.skin->materials, part.material) != input.skin->materials.end();
         });
-        rest = skin.rest;
-        if (!rest.empty())
-            draw_parts(graph, pass, input, *skin.rest_mesh, rest, shading);
+        lit = input.skin->rest;
+        if (input.kept)
+            draw_skin(pass, input, *input.kept, shading);
+        else
+            lit.insert(lit.end(), input.skin->shown.begin(), input.skin->shown.end());
     }
-    draw_parts(graph, pass, input, *input.head.mesh, parts, shading);
-    if (!parts.empty() || !rest.empty())
+    draw_diffused(graph, pass, input, lit, shading);
+    draw_parts(graph, pass, input, parts, shading);
+    if (!parts.empty() || !lit.empty())
         prepare_parts(graph, pass, input, shading);
     if (input.developed) {
         graph::Draw& backdrop = pass.draw("backdrop");
         backdrop.index_count = 3;
     }
     std::uint32_t shown = 0;
-    for (const std::vector<HeadPart>* drawn : {&parts, &rest})
-        for (const HeadPart& part : *drawn)
-            shown |= part.wounds;
+    for (const HeadPart& part : parts)
+        shown |= part.wounds;
+    for (const SkinDraw& piece : lit)
+        shown |= piece.wounds;
     confine_wounds(pass, input.wounds, shown, view, target);
-    if (input.kept)
-        confine_skin(pass, input, view, target);
+    if (const SkinLight* kept = input.kept)
+        confine_skin(pass, {kept->light, kept->normal, kept->gloss}, kept->wounded, kept->reach_m,
+                     input.placed, view, target);
+    if (!lit.empty() && input.around)
+        confine_skin(pass, {input.around->light}, input.around->wounded, input.around->reach_m, input.placed,
+                     view, target);
     return radiance;
 }
 

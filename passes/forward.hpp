@@ -41,7 +41,9 @@ struct WoundUniform
 };
 WoundUniform wound_frames(std::span<const ForwardWound> wounds);
 
+struct Skin;
 struct SkinLight;
+struct DiffusedLight;
 
 struct ForwardInput
 {
@@ -52,7 +54,10 @@ struct ForwardInput
     graph::ImageId shadow_depth;               // used when a light casts a shadow
     bool every_frame = true;                   // run the pass even when nothing has changed
     base::Color scattering_length_mm{0, 0, 0}; // of the skin (optics/transport.hpp)
+    const Skin* skin = nullptr;                // of `head`, for what follows
+    std::span<const ForwardWound> placed{};    // on it, whether the camera sees them or not
     const SkinLight* kept = nullptr;           // light on the skin; null: computed in every pixel
+    const DiffusedLight* around = nullptr;     // of transport `diffused`; null: drawn as `preintegrated`
     std::optional<shared::Develop> developed;  // for opaque parts, a backdrop and one sample
 };
 

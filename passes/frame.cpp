@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <iterator>
 
+#include "passes/diffusion.hpp"
 #include "passes/shadow.hpp"
-#include "passes/skin_light.hpp"
 #include "passes/tonemap.hpp"
 
 namespace passes {
@@ -20,11 +20,40 @@ std::vector<Bounds> boxes_in_picture(const FrameInput& input)
     return boxes_in_view(input.head.boxes, whole.clip_from_world);
 }
 
-void add_shadow_depth(graph::Graph& graph, const FrameInput& input, ForwardInput& forward, std::uint32_t size)
+/// The light on the skin, as far as the frame wants it. Its shadows are those of the whole head, wherever the
+/// camera is: they stand as the light does.
+struct OnSkin
 {
-    if (forward.shadows.casting != 0)
-        forward.shadow_depth =
-            add_shadows(graph, forward.shadows, *input.head.caster_mesh, input.head.casters, size);
+    std::optional<SkinLight> kept;
+    std::optional<DiffusedLight> around;
+    Shadows shadows;
+    graph::ImageId shadow_depth;
+};
+
+OnSkin add_light_on_skin(graph::Graph& graph, const FrameInput& input, ForwardInput on_skin)
+{
+    const bool diffused = input.shading.transport == optics::Transport::Diffused && input.diffusion_scale &&
+                          input.shading.lambertian();
+    OnSkin result;
+    if (!input.skin || on_skin.wounds.size() > shared::MAX_WOUNDS || (!input.kept_scale && !diffused))
+        return result;
+    if (input.shading.shadow)
+        on_skin.shadows = fit_shadows(on_skin.lights, input.head.min, input.head.max, {}, kept_shadow_size);
+    const bool kept = input.kept_scale && can_keep_light(input.shading, on_skin.shadows);
+    if (!kept && !diffused)
+        return result;
+    if (on_skin.shadows.casting != 0)
+        on_skin.shadow_depth = add_shadows(graph, "skin shadow", on_skin.shadows, *input.head.caster_mesh,
+                                           input.head.casters, kept_shadow_size);
+    result.shadows = on_skin.shadows;
+    result.shadow_depth = on_skin.shadow_depth;
+    if (diffused)
+        result.around = add_diffusion(graph, on_skin, *input.skin, *input.diffusion_scale, input.shading);
+    on_skin.around = result.around ? &*result.around : nullptr;
+    if (kept)
+        result.kept.emplace(add_skin_light(graph, on_skin, *input.skin, *input.kept_scale, input.shading,
+                                           input.exposure_stops));
+    return result;
 }
 
 } // namespace
@@ -55,24 +84,22 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
                          [](const optics::Light& light) { return light.strength != base::Color(0, 0, 0); });
     ForwardInput forward{input.head, seen, lights, {}, {}, input.every_frame, input.scattering_length_mm};
     const bool lit = input.shading.lambertian() || input.shading.glossy();
-    std::optional<SkinLight> kept;
-    if (input.skin && placed.size() <= shared::MAX_WOUNDS) {
-        if (input.shading.shadow && lit) // camera or not: the shadows stand as the light does
-            forward.shadows = fit_shadows(lights, input.head.min, input.head.max, {}, kept_shadow_size);
-        if (can_keep_light(input.shading, forward.shadows)) {
-            add_shadow_depth(graph, input, forward, kept_shadow_size);
-            ForwardInput all = forward;
-            all.wounds = placed;
-            kept.emplace(add_skin_light(graph, all, *input.skin, input.skin_scale, input.shading,
-                                        input.exposure_stops));
-            forward.kept = &*kept;
-        }
-    }
-    if (!kept) {
-        if (input.shading.shadow && lit)
-            forward.shadows =
-                fit_shadows(lights, input.head.min, input.head.max, boxes_in_picture(input), shadow_size);
-        add_shadow_depth(graph, input, forward, shadow_size);
+    ForwardInput all = forward;
+    all.wounds = placed;
+    const OnSkin on_skin = add_light_on_skin(graph, input, all);
+    forward.skin = input.skin;
+    forward.placed = placed;
+    forward.kept = on_skin.kept ? &*on_skin.kept : nullptr;
+    forward.around = on_skin.around ? &*on_skin.around : nullptr;
+    if (on_skin.kept) {
+        forward.shadows = on_skin.shadows;
+        forward.shadow_depth = on_skin.shadow_depth;
+    } else if (input.shading.shadow && lit) {
+        forward.shadows =
+            fit_shadows(lights, input.head.min, input.head.max, boxes_in_picture(input), shadow_size);
+        if (forward.shadows.casting != 0)
+            forward.shadow_depth =
+                add_shadows(graph, "shadow", forward.shadows, *input.head.caster_mesh, input.head.casters);
     }
     const Backdrop backdrop = backdrop_of(input.tile);
     if (!input.radiance && input.samples == 1 && !backdrop.transparent &&

@@ -37,11 +37,14 @@ struct FrameInput
     float exposure_stops = 0; // each stop doubles the light
     bool every_frame = true;  // draw the head even when nothing has changed, for measurements
     base::Color scattering_length_mm{0, 0, 0}; // of the skin (optics/transport.hpp)
-    /// Of `head` and its wounds: light is kept on it where that can be done, for frames between which it
-    /// stands. Null: light is computed in every pixel.
-    const Skin* skin = nullptr;
-    double skin_scale = 0; // of its atlas; with `skin`, atlas_scale()
-    bool radiance = true;  // FrameImages::radiance is needed
+    const Skin* skin = nullptr;                // of `head` and its wounds, for what follows
+    /// Light is kept on the skin where that can be done, for frames between which it stands: scale of the
+    /// atlas, atlas_scale(). None: light is computed in every pixel.
+    std::optional<double> kept_scale;
+    /// For transport `diffused`: scale of the atlas on which light spreads, diffusion_scale(). None: it is
+    /// drawn as `preintegrated`, which needs no time when the lights change.
+    std::optional<double> diffusion_scale;
+    bool radiance = true; // FrameImages::radiance is needed
 };
 
 struct FrameImages

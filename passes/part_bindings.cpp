@@ -42,7 +42,7 @@ shared::Part part_params(const HeadPart& part, optics::Shading shading)
 }
 
 void bind_part(graph::Graph& graph, graph::Draw& draw, const Head& head, const HeadPart& part,
-               std::uint32_t set, std::span<const ForwardWound> wounds)
+               std::uint32_t set, std::span<const ForwardWound> wounds, bool occlusion)
 {
     const auto map = [&](const char* name, const char* image, const gpu::Texture& texture) {
         draw.sample(name, graph.import(fmt::format("{} {}", image, part.material), texture),
@@ -50,8 +50,10 @@ void bind_part(graph::Graph& graph, graph::Draw& draw, const Head& head, const H
     };
     map("albedo_map", "albedo", *part.albedo);
     map("normal_map", "normal", *part.normal);
-    map("occlusion_map", "occlusion", *part.occlusion);
-    draw.constant("OCCLUSION_MAP", part.occlusion != head.white);
+    if (occlusion) {
+        map("occlusion_map", "occlusion", *part.occlusion);
+        draw.constant("OCCLUSION_MAP", part.occlusion != head.white);
+    }
     std::vector<ForwardWound> showing;
     for (const ForwardWound& wound : wounds)
         if ((set >> wound.index & 1) != 0)

@@ -12,6 +12,6 @@ shared::Part part_params(const HeadPart& part, optics::Shading shading);
 
 /// Albedo, normal and occlusion of the part and those of `wounds` that are in `set` (HeadPart::wounds).
 void bind_part(graph::Graph& graph, graph::Draw& draw, const Head& head, const HeadPart& part,
-               std::uint32_t set, std::span<const ForwardWound> wounds);
+               std::uint32_t set, std::span<const ForwardWound> wounds, bool occlusion = true);
 
 } // namespace passes

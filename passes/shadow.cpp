@@ -130,12 +130,13 @@ Shadows fit_shadows(std::span<const optics::Light> lights, const glm::vec3& box_
     return shadows;
 }
 
-graph::ImageId add_shadows(graph::Graph& graph, const Shadows& shadows, const graph::Mesh& mesh,
-                           std::span<const head::Primitive> casters, std::uint32_t size)
+graph::ImageId add_shadows(graph::Graph& graph, const std::string& name, const Shadows& shadows,
+                           const graph::Mesh& mesh, std::span<const head::Primitive> casters,
+                           std::uint32_t size)
 {
     const auto count = std::uint32_t(std::popcount(shadows.casting));
-    const graph::ImageId depth = graph.image("shadow depth", {count * size, size, VK_FORMAT_D32_SFLOAT});
-    graph::RasterPass& pass = graph.raster("shadow");
+    const graph::ImageId depth = graph.image(name + " depth", {count * size, size, VK_FORMAT_D32_SFLOAT});
+    graph::RasterPass& pass = graph.raster(name);
     pass.depth(depth);
     for (std::size_t light = 0; light < std::size(shadows.lights); ++light) {
         if ((shadows.casting >> light & 1) == 0)

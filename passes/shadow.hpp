@@ -37,8 +37,9 @@ Shadows fit_shadows(std::span<const optics::Light> lights, const glm::vec3& box_
                     std::span<const Bounds> seen, std::uint32_t size = shadow_size);
 
 /// Depth of the given primitives, D32, seen by each light that casts a shadow; there must be one. Omit
-/// primitives that transmit light, such as lashes.
-graph::ImageId add_shadows(graph::Graph& graph, const Shadows& shadows, const graph::Mesh& mesh,
-                           std::span<const head::Primitive> casters, std::uint32_t size = shadow_size);
+/// primitives that transmit light, such as lashes. `name`: of the pass.
+graph::ImageId add_shadows(graph::Graph& graph, const std::string& name, const Shadows& shadows,
+                           const graph::Mesh& mesh, std::span<const head::Primitive> casters,
+                           std::uint32_t size = shadow_size);
 
 } // namespace passes

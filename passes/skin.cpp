@@ -19,6 +19,7 @@ constexpr double longest_side = 8192;
 // wanted are taken when the wanted ones would be too many.
 constexpr double wanted_pixels = 2, most_pixels = 4;
 constexpr float longest_miter = 2; // of a skirt, in its widths
+constexpr double usual_albedo = .5, most_diffused_texels = 1e6;
 
 struct SkinVertex
 {
@@ -38,6 +39,28 @@ constexpr std::array<graph::VertexAttribute, 8> attributes{{
     {"outward", 2, offsetof(SkinVertex, outward)},
 }};
 constexpr graph::VertexLayout layout{sizeof(SkinVertex), attributes};
+
+constexpr std::array<graph::VertexAttribute, 6> surface_attributes{{
+    {"place", 2, offsetof(head::SurfaceVertex, at)},
+    {"outward", 2, offsetof(head::SurfaceVertex, at_outward)},
+    {"from", 2, offsetof(head::SurfaceVertex, from)},
+    {"from_outward", 2, offsetof(head::SurfaceVertex, from_outward)},
+    {"position", 3, offsetof(head::SurfaceVertex, position)},
+    {"position_outward", 3, offsetof(head::SurfaceVertex, position_outward)},
+}};
+constexpr graph::VertexLayout surface_layout{sizeof(head::SurfaceVertex), surface_attributes};
+
+void append(head::AtlasSurface& whole, const head::AtlasSurface& more)
+{
+    const auto vertices = std::uint32_t(whole.vertices.size()), indices = std::uint32_t(whole.indices.size());
+    whole.vertices.insert(whole.vertices.end(), more.vertices.begin(), more.vertices.end());
+    for (const std::uint32_t index : more.indices)
+        whole.indices.push_back(vertices + index);
+    for (head::SurfacePiece piece : more.pieces) {
+        piece.first_index += indices;
+        whole.pieces.push_back(piece);
+    }
+}
 
 /// A material's occlusion map, small enough that a vertex can take what a texel says.
 cv::Mat1b small_occlusion(const head::Material& material)
@@ -67,19 +90,15 @@ class Spreading
     /// A tile of a material: without wounds.
     void add_base(const head::AtlasTile& tile)
     {
-        std::vector<head::AtlasTriangle> whole;
+        std::vector<head::AtlasTriangle> whole, rest;
         for (const head::AtlasTriangle& triangle : tile.home)
-            if (const std::uint32_t wounds = wounds_on(model_, triangle.first, wounds_); wounds != 0) {
-                Group& group = group_of(rest, material_[triangle.first / 3], wounds);
-                group.indices.insert(group.indices.end(), &model_.indices[triangle.first],
-                                     &model_.indices[triangle.first] + 3);
-            } else
-                whole.push_back(triangle);
+            (wounds_on(model_, triangle.first, wounds_) != 0 ? rest : whole).push_back(triangle);
         const std::vector<Group> home = groups(tile.home, false);
         append(groups(tile.margin, false), tile, skin.spread);
         append(skirts(home), tile, skin.spread);
         append(home, tile, skin.spread);
         append(groups(whole, false), tile, skin.shown);
+        append(groups(rest, true), tile, skin.rest);
     }
 
     /// A tile around a wound.
@@ -108,7 +127,6 @@ class Spreading
     Skin skin;
     std::vector<SkinVertex> vertices;
     std::vector<std::uint32_t> indices;
-    std::vector<Group> rest; // wounded triangles without a place in a wound's tile; of the model's vertices
 
   private:
     static Group& group_of(std::vector<Group>& groups, std::uint32_t material, std::uint32_t wounds)
@@ -228,8 +246,9 @@ std::vector<std::uint32_t> kept_materials(const head::Model& model)
     return materials;
 }
 
-std::shared_ptr<const Skin> upload_skin(const gpu::Device& device, const Head& head, const head::Model& model,
-                                        const head::Atlas& atlas, std::span<const WoundReach> wounds)
+std::shared_ptr<const Skin> upload_skin(const gpu::Device& device, const head::Model& model,
+                                        const head::Atlas& atlas, const head::AtlasSurface& surface,
+                                        std::span<const WoundReach> wounds)
 {
     Spreading spreading(model, atlas, wounds);
     for (const head::AtlasTile& tile : atlas.materials)
@@ -252,18 +271,11 @@ std::shared_ptr<const Skin> upload_skin(const gpu::Device& device, const Head& h
         }
     skin.wounded_corner = glm::min(low, high);
     skin.wounded_size = high - skin.wounded_corner;
-    std::vector<std::uint32_t> rest;
-    for (const Spreading::Group& group : spreading.rest) {
-        HeadPart part = *std::ranges::find(head.parts, group.material, &HeadPart::material);
-        part.first_index = std::uint32_t(rest.size());
-        part.index_count = std::uint32_t(group.indices.size());
-        part.wounds = group.wounds;
-        skin.rest.push_back(part);
-        rest.insert(rest.end(), group.indices.begin(), group.indices.end());
-    }
-    if (!rest.empty())
-        skin.rest_mesh =
-            std::make_shared<const gpu::MeshBuffer>(device, *head.mesh, rest, "rest of the skin");
+    head::AtlasSurface whole = surface;
+    append(whole, head::surface_of(model, atlas.wounds, false));
+    skin.surface = whole.pieces;
+    skin.surface_mesh = std::make_shared<const gpu::MeshBuffer>(
+        device, surface_layout, std::as_bytes(std::span(whole.vertices)), whole.indices, "skin surface");
     return std::make_shared<const Skin>(std::move(skin));
 }
 
@@ -286,6 +298,34 @@ std::optional<double> atlas_scale(const Skin& skin, std::span<const Bounds> head
             return scale;
     }
     return finest && skin.texel_m / *finest <= most_pixels * pixel_m ? finest : std::nullopt;
+}
+
+graph::Region scaled(const graph::Region& region, double ratio, double margin, const glm::uvec2& size)
+{
+    if (region.empty())
+        return {};
+    const glm::dvec2 low = ratio * glm::dvec2(region.x, region.y) - margin,
+                     high = ratio * glm::dvec2(region.x + region.width, region.y + region.height) + margin;
+    const glm::uvec2 first(glm::floor(glm::clamp(low, glm::dvec2(0), glm::dvec2(size)))),
+        last(glm::ceil(glm::clamp(high, glm::dvec2(0), glm::dvec2(size))));
+    return {first.x, first.y, last.x - first.x, last.y - first.y};
+}
+
+double diffusion_scale(const Skin& skin, const base::Color& scattering_length_mm)
+{
+    const double width_m =
+        1e-3 * usual_albedo *
+        std::max({scattering_length_mm[0], scattering_length_mm[1], scattering_length_mm[2]});
+    double found = head::smallest_atlas_scale;
+    for (double scale = found; scale <= head::largest_atlas_scale; scale *= 2) {
+        const glm::dvec2 size = scale * glm::dvec2(skin.size);
+        if (size.x * size.y > most_diffused_texels)
+            break;
+        found = scale;
+        if (skin.texel_m / scale <= width_m)
+            break;
+    }
+    return found;
 }
 
 } // namespace passes

@@ -8,7 +8,8 @@
 
 #include "engine/gpu/device.hpp"
 #include "engine/gpu/mesh_buffer.hpp"
-#include "head/atlas.hpp"
+#include "engine/graph/region.hpp"
+#include "head/atlas_surface.hpp"
 #include "head/camera.hpp"
 #include "passes/head.hpp"
 
@@ -27,27 +28,37 @@ struct Skin
     std::shared_ptr<const gpu::MeshBuffer> mesh;
     std::vector<SkinDraw> spread; // onto the atlas, in this order
     std::vector<SkinDraw> shown;  // to a camera
-    /// Wounded skin that has no place in a wound's tile, in rest_mesh: its light is computed in every pixel.
-    std::vector<HeadPart> rest;
-    std::shared_ptr<const gpu::MeshBuffer> rest_mesh;
-    std::vector<std::uint32_t> materials;          // on the atlas, whole
-    glm::uvec2 size{0};                            // units
-    glm::uvec2 wounded_corner{0}, wounded_size{0}; // units: bounds of the wounds' tiles
-    double texel_m = 0;                            // at scale 1
+    /// Wounded skin that has no place in a wound's tile, with its place in a material's, where the light is
+    /// that of unhurt skin: its light is computed in every pixel.
+    std::vector<SkinDraw> rest;
+    std::shared_ptr<const gpu::MeshBuffer> surface_mesh; // of head::SurfaceVertex
+    std::vector<head::SurfacePiece> surface;             // in the order in which they are to be drawn
+    std::vector<std::uint32_t> materials;                // on the atlas, whole
+    glm::uvec2 size{0};                                  // units
+    glm::uvec2 wounded_corner{0}, wounded_size{0};       // units: bounds of the wounds' tiles
+    double texel_m = 0;                                  // at scale 1
 };
 
 /// The materials whose light can be kept: opaque skin that is seen from one side.
 std::vector<std::uint32_t> kept_materials(const head::Model& model);
 
-/// `head`: of upload_head() with this model, without or with wounds. `atlas`: of kept_materials(model) with
-/// these wounds' anchors. Null when it is empty.
-std::shared_ptr<const Skin> upload_skin(const gpu::Device& device, const Head& head, const head::Model& model,
-                                        const head::Atlas& atlas, std::span<const WoundReach> wounds);
+/// `atlas`: of kept_materials(model) with these wounds' anchors. `surface`: of its tiles of materials, with
+/// skirts. Null when it is empty.
+std::shared_ptr<const Skin> upload_skin(const gpu::Device& device, const head::Model& model,
+                                        const head::Atlas& atlas, const head::AtlasSurface& surface,
+                                        std::span<const WoundReach> wounds);
 
 /// The least scale of the atlas at which a texel is no wider than two pixels, and a wound's no wider than
 /// one, where the camera is nearest to the head; when that would take too many texels the largest scale that
 /// does not, if its texels are no wider than twice that; else none. `height`: of the whole picture, pixels.
 std::optional<double> atlas_scale(const Skin& skin, std::span<const Bounds> head, const head::Camera& camera,
                                   std::uint32_t height);
+
+/// A region of an image on the atlas in an image at `ratio` times its scale and of this size; larger on each
+/// side by `margin` texels of that image.
+graph::Region scaled(const graph::Region& region, double ratio, double margin, const glm::uvec2& size);
+
+/// The scale of the atlas on which light spreads through tissue of this scattering length.
+double diffusion_scale(const Skin& skin, const base::Color& scattering_length_mm);
 
 } // namespace passes

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <string>
 
+#include "passes/diffusion.hpp"
 #include "passes/part_bindings.hpp"
 #include "passes/shading.hpp"
 
@@ -48,47 +50,45 @@ float brightest(const ForwardInput& input, const optics::Shading& shading, float
     return float(std::clamp(shading.rho_d * light, 1e-6, shown * std::exp2(-double(exposure_stops))));
 }
 
-} // namespace
-
-bool can_keep_light(const optics::Shading& shading, const Shadows& shadows)
+/// `code`: none: the light is received, not yet spread, and the images are others'.
+SkinLight add_light(graph::Graph& graph, const ForwardInput& input, const Skin& skin, double scale,
+                    const optics::Shading& shading, const std::optional<shared::LightCode>& code)
 {
-    return shading.lambertian() && shading.drawn_transport() != optics::Transport::Published &&
-           shading.alpha_x == shading.alpha_y && shading.alpha_x >= least_even_slope &&
-           (shadows.casting & ~3u) == 0;
-}
-
-SkinLight add_skin_light(graph::Graph& graph, const ForwardInput& input, const Skin& skin, double scale,
-                         const optics::Shading& shading, float exposure_stops)
-{
+    const std::string kind = code ? "" : "coarse ";
+    const bool spreads = code && input.around;
+    const optics::Transport transport =
+        spreads || !code ? optics::Transport::Diffused : shading.pointwise_transport();
     assert(input.wounds.size() <= shared::MAX_WOUNDS);
     const glm::uvec2 size(glm::dvec2(skin.size) * scale);
     const graph::ImageDesc desc{size.x, size.y, VK_FORMAT_R8G8B8A8_UNORM};
     // Eight bits of reflectance and light would differ by .45 instead of .23 CIEDE2000 from what every pixel
     // computes.
     const graph::ImageDesc fine{size.x, size.y, VK_FORMAT_R16G16B16A16_SFLOAT};
-    const graph::ImageId albedo = graph.image("skin albedo", fine), normal = graph.image("skin normal", desc);
-    SkinLight kept{.light = graph.image("skin light", fine),
-                   .normal = graph.image("lit skin normal", desc),
-                   .gloss = graph.image("skin gloss", desc),
-                   .code = {brightest(input, shading, exposure_stops)},
-                   .skin = skin,
-                   .wounds = input.wounds};
+    const graph::ImageId albedo = graph.image(kind + "skin albedo", fine),
+                         normal = graph.image(kind + "skin normal", desc);
+    SkinLight kept{.light = graph.image(kind + "skin light", fine),
+                   .normal = graph.image(kind + "lit skin normal", desc),
+                   .gloss = graph.image(kind + "skin gloss", desc),
+                   .albedo = albedo,
+                   .code = code.value_or(shared::LightCode{1}),
+                   .skin = skin};
     const glm::uvec2 corner(glm::dvec2(skin.wounded_corner) * scale),
         wounded(glm::ceil(glm::dvec2(skin.wounded_size) * scale));
     kept.wounded = {corner.x, corner.y, wounded.x, wounded.y};
 
-    graph::RasterPass& map = graph.raster("skin");
+    graph::RasterPass& map = graph.raster(kind + "skin");
     map.color(albedo, {0, 0, 0, 1});
     map.color(normal, {.5f, .5f, 1, 1});
     map.color(kept.gloss, {0, 0, 0, 1});
     map.constant("NORMAL_MAP", shading.normal_map);
     map.constant("AMBIENT", shading.ambient != base::Color(0, 0, 0));
     map.constant("BLEND_MODEL", std::uint32_t(shading.blend_model));
-    graph::RasterPass& lit = graph.raster("skin light");
+    graph::RasterPass& lit = graph.raster(kind + "skin light");
     lit.color(kept.light, {0, 0, 0, 1});
     lit.color(kept.normal, {.5f, .5f, 1, 1});
     lit.constant("LIGHTS", std::uint32_t(input.lights.size()));
-    lit.constant("TRANSPORT", std::uint32_t(shading.drawn_transport()));
+    lit.constant("TRANSPORT", std::uint32_t(transport));
+    lit.constant("RECEIVED", !code);
     lit.constant("SHADOWS", input.shadows.casting);
     lit.constant("BOUNCE", shading.bounce);
     lit.uniform("Code_", kept.code);
@@ -98,6 +98,7 @@ SkinLight add_skin_light(graph::Graph& graph, const ForwardInput& input, const S
     lit.sample("shadow_map",
                input.shadows.casting != 0 ? input.shadow_depth : graph.import("white", *input.head.white),
                graph::Sampler::NearestClamp);
+    lit.sample("diffused_light", spreads ? input.around->light : graph.import("white", *input.head.white));
     lit.sample("skin_albedo", albedo, graph::Sampler::NearestClamp);
     lit.sample("skin_normal", normal, graph::Sampler::NearestClamp);
     lit.sample("skin_gloss", kept.gloss, graph::Sampler::NearestClamp);
@@ -122,7 +123,34 @@ SkinLight add_skin_light(graph::Graph& graph, const ForwardInput& input, const S
         map.confine("Wounds_", kept.wounded);
     for (const graph::ImageId image : {albedo, normal, kept.gloss})
         lit.in_place(image);
+    if (spreads) {
+        kept.wounded = scaled(input.around->wounded, scale / input.around->scale, 2, size); // 2: by a filter
+        kept.reach_m = input.around->reach_m;
+        lit.confine(input.around->light, input.around->wounded, kept.wounded);
+    }
     return kept;
+}
+
+} // namespace
+
+bool can_keep_light(const optics::Shading& shading, const Shadows& shadows)
+{
+    return shading.lambertian() && shading.drawn_transport() != optics::Transport::Published &&
+           shading.alpha_x == shading.alpha_y && shading.alpha_x >= least_even_slope &&
+           (shadows.casting & ~3u) == 0;
+}
+
+SkinLight add_skin_light(graph::Graph& graph, const ForwardInput& input, const Skin& skin, double scale,
+                         const optics::Shading& shading, float exposure_stops)
+{
+    return add_light(graph, input, skin, scale, shading,
+                     shared::LightCode{brightest(input, shading, exposure_stops)});
+}
+
+SkinLight add_received_light(graph::Graph& graph, const ForwardInput& input, const Skin& skin, double scale,
+                             const optics::Shading& shading)
+{
+    return add_light(graph, input, skin, scale, shading, std::nullopt);
 }
 
 } // namespace passes

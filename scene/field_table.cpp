@@ -244,9 +244,9 @@ const std::vector<Field<optics::Shading>>& shading_fields()
                 "transport", optics::transport_names, [](auto& s) -> auto& { return s.transport; },
                 "how light leaves the skin: by the translucent term of eq. (6) too, which also lights what "
                 "no "
-                "light reaches; where it entered; or spread by the tissue, by curvature at bends, at the "
-                "edges of "
-                "shadows, and through thin parts"),
+                "light reaches; where it entered; spread by the tissue, by curvature at bends, at the edges "
+                "of "
+                "shadows, and through thin parts; or spread from all that the skin around a point receives"),
             choice<Shading>(
                 "specular_model", optics::specular_model_names,
                 [](auto& s) -> auto& { return s.specular_model; },

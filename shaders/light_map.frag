@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 // The light that leaves the skin diffusely, seen from anywhere, and what of the first two lights reaches it. The same
 // terms as in forward.frag, whose normal is bent towards the viewer at the head's outline.
+#include "lib/diffusion.glsl"
 #include "lib/light_inputs.glsl"
 #include "lib/on_atlas.glsl"
 #include "lib/skin_code.glsl"
@@ -16,7 +17,12 @@ layout(binding = 4) uniform sampler2D skin_albedo;
 layout(binding = 5) uniform sampler2D skin_normal;
 layout(binding = 6) uniform sampler2D skin_gloss;
 
-layout(location = 0) out vec4 out_light;  // rgb: root of the light over `white`; a: share of the first light
+layout(binding = 7) uniform sampler2D diffused_light; // used with transport diffused
+
+layout(constant_id = 16) const bool RECEIVED = false;
+
+// rgb: root of the light over `white`, or if RECEIVED what the skin receives, per reflectance; a: share of the first light
+layout(location = 0) out vec4 out_light;
 layout(location = 1) out vec4 out_normal; // rgb: as in the skin's map; a: share of the second light
 
 void main()
@@ -45,6 +51,13 @@ void main()
             visible[i] = shade.visibility;
     }
     diffuse += body.albedo * body.albedo * bounced;
-    out_light = vec4(sqrt(clamp(diffuse / code.white, 0.0, 1.0)), visible.x);
+    if (RECEIVED)
+        out_light = vec4(min(diffuse / max(body.albedo, vec3(1e-3)), vec3(6e4)), visible.x);
+    else
+    {
+        if (TRANSPORT == TRANSPORT_DIFFUSED)
+            diffuse = with_surroundings(body, diffuse, textureLod(diffused_light, gl_FragCoord.xy / vec2(textureSize(skin_albedo, 0)), 0));
+        out_light = vec4(sqrt(clamp(diffuse / code.white, 0.0, 1.0)), visible.x);
+    }
     out_normal = vec4(normal.rgb, visible.y);
 }

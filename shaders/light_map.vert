@@ -35,7 +35,7 @@ void main()
         ShadowLookup lookup = ShadowLookup(vec4(0), vec4(0));
         if ((SHADOWS >> i & 1) != 0)
             lookup = shadow_lookup(shadows[i], position, normal, sample_light(lighting.light[i], position).direction,
-                                   TRANSPORT == TRANSPORT_PREINTEGRATED, curvature.y);
+                                   TRANSPORT, curvature.y);
         v_shadow_place[i] = lookup.place;
         v_shadow_slope[i] = lookup.slope;
     }

@@ -191,11 +191,13 @@ void Stage::set_tissue(const optics::HealingTissue& tissue)
 const passes::Skin* Stage::skin() const
 {
     const head::Model& model = *set_.loaded.head->model;
-    if (spread_.bare != set_.bare)
-        spread_ = {set_.bare, nullptr, head::unwrap(model, passes::kept_materials(model)), nullptr};
+    if (spread_.bare != set_.bare) {
+        spread_ = {set_.bare, nullptr, head::unwrap(model, passes::kept_materials(model)), {}, nullptr};
+        spread_.surface = head::surface_of(model, spread_.base.atlas.materials, true);
+    }
     if (spread_.wounded != set_.wounded) {
         const head::Atlas atlas = head::with_wounds(model, spread_.base, set_.loaded.anchors());
-        spread_.skin = passes::upload_skin(*device_, *set_.bare, model, atlas, set_.reaches);
+        spread_.skin = passes::upload_skin(*device_, model, atlas, spread_.surface, set_.reaches);
         spread_.wounded = set_.wounded;
     }
     return spread_.skin.get();
@@ -209,7 +211,7 @@ std::optional<double> Stage::light_scale(const head::Camera& camera, std::uint32
 
 base::Color Stage::scattering_length_mm(const optics::Shading& shading) const
 {
-    if (shading.drawn_transport() != optics::Transport::Preintegrated)
+    if (shading.pointwise_transport() != optics::Transport::Preintegrated)
         return {0, 0, 0};
     if (!scattering_length_mm_)
         scattering_length_mm_ = optics::scattering_length_mm(optics::layers_of(set_.loaded.tissue));
@@ -249,9 +251,14 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
         graph.keep(wound.maps.shape);
     }
     graph.keep(set_.wounded);
-    const passes::Skin* kept = request.light_scale ? skin() : nullptr;
-    if (kept)
+    const bool diffused = shading.transport == optics::Transport::Diffused && request.lights_rest;
+    const passes::Skin* spread = request.light_scale || diffused ? skin() : nullptr;
+    if (spread)
         graph.keep(spread_.skin);
+    const base::Color length_mm = scattering_length_mm(shading);
+    std::optional<double> diffusion_scale;
+    if (spread && diffused)
+        diffusion_scale = passes::diffusion_scale(*spread, length_mm);
     frame.images = passes::add_frame(graph, {.head = *set_.wounded,
                                              .wounds = wounds,
                                              .lights = set_.loaded.lights,
@@ -262,9 +269,10 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
                                              .samples = scene.samples,
                                              .exposure_stops = float(scene.exposure_stops),
                                              .every_frame = request.every_frame,
-                                             .scattering_length_mm = scattering_length_mm(shading),
-                                             .skin = kept,
-                                             .skin_scale = request.light_scale.value_or(0),
+                                             .scattering_length_mm = length_mm,
+                                             .skin = spread,
+                                             .kept_scale = request.light_scale,
+                                             .diffusion_scale = diffusion_scale,
                                              .radiance = request.radiance});
     return frame;
 }

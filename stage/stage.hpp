@@ -37,6 +37,9 @@ struct FrameRequest
     /// one costs more, those less. Stage::light_scale(); none: light is computed in every pixel.
     std::optional<double> light_scale;
     bool radiance = true; // FrameImages::radiance is needed
+    /// The lights stand. While they are dragged transport `diffused` is drawn as `preintegrated`, which needs
+    /// no time when lights change.
+    bool lights_rest = true;
 };
 
 struct Frame
@@ -153,6 +156,7 @@ class Stage
     {
         std::shared_ptr<const passes::Head> bare, wounded;
         head::BaseAtlas base;
+        head::AtlasSurface surface; // of `base`, with skirts
         std::shared_ptr<const passes::Skin> skin;
     };
     mutable SpreadHead spread_;

@@ -104,6 +104,8 @@ std::optional<double> DemoWindow::seconds_to_wait() const
         at_most(.03);
     if (stage_ && !compared_ && !light_.rested)
         at_most(std::max(light_.since + light_rest_s - now, .05));
+    if (stage_ && now < light_.scene_since + light_rest_s)
+        at_most(light_.scene_since + light_rest_s - now);
     if (const std::optional<double> notice = state_.notices.next_change())
         at_most(*notice - now);
     return wait;
@@ -213,9 +215,10 @@ void DemoWindow::watch_light(std::uint32_t height)
 {
     const double now = now_s();
     light_.scene.camera = stage_->scene().camera; // does not concern the light
-    if (compared_ || stage_->pending() || light_.day != state_.playback.day ||
-        light_.scene != stage_->scene())
-        light_ = {stage_->scene(), state_.playback.day, now, false, std::nullopt};
+    const bool changed = stage_->pending() || light_.scene != stage_->scene();
+    if (compared_ || changed || light_.day != state_.playback.day)
+        light_ = {stage_->scene(), state_.playback.day, now, changed ? now : light_.scene_since,
+                  false,           std::nullopt};
     else if (now >= light_.since + light_rest_s && quality_.scale(now) == 1 && !state_.moving) {
         light_.rested = true;
         light_.scale = stage_->light_scale(stage_->loaded().camera(), height);
@@ -230,8 +233,12 @@ DemoWindow::Drawn DemoWindow::draw_picture(double scale)
                                             std::max(16u, std::uint32_t(std::lround(full[1] * scale)))};
     graph::Graph graph;
     const double day = state_.playback.day;
-    const stage::FrameRequest now{
-        .day = day, .tile = size, .every_frame = false, .light_scale = light_.scale, .radiance = false};
+    const stage::FrameRequest now{.day = day,
+                                  .tile = size,
+                                  .every_frame = false,
+                                  .light_scale = light_.scale,
+                                  .radiance = false,
+                                  .lights_rest = now_s() >= light_.scene_since + light_rest_s};
     stage::FrameRequest other = now;
     other.day = compared_day(day);
     const graph::ImageId picture =

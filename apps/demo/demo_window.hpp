@@ -117,6 +117,7 @@ class DemoWindow
     {
         scene::Scene scene; // its camera does not matter
         double day = -1, since = 0;
+        double scene_since = 0; // since when all but the day has stood
         bool rested = false;
         std::optional<double> scale;
     };

@@ -52,7 +52,7 @@ std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage, const std::ve
     const double span = last > first ? last - first : 10;
     constexpr double arc_deg = 40, tint = 0.2;
     const auto declare = [&stage](graph::Graph& graph, double day, const head::Camera& camera,
-                                  bool light_stands = false) {
+                                  bool light_stands = false, bool lights_rest = true) {
         const stage::FrameRequest request{
             .day = day,
             .tile = stage.scene().size,
@@ -60,7 +60,8 @@ std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage, const std::ve
             .every_frame = false,
             .light_scale = light_stands ? stage.light_scale(stage.loaded().camera(), stage.scene().size[1])
                                         : std::nullopt,
-            .radiance = false};
+            .radiance = false,
+            .lights_rest = lights_rest};
         const graph::ImageId picture = stage.declare(graph, request).images.picture;
         graph.present(picture);
         return picture;
@@ -75,7 +76,7 @@ std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage, const std::ve
         if (!lit.lights.empty())
             lit.lights.front().from.azimuth_deg += arc_deg * position;
         stage.update(lit, dragged);
-        declare(graph, first, stage.loaded().camera(), !dragged);
+        declare(graph, first, stage.loaded().camera(), !dragged, !dragged);
     };
     const auto restore = [&stage, scene = scene::Scene(scene)] { stage.update(scene); };
     std::vector<stage::MeasuredCase> cases{

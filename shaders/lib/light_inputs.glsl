@@ -31,7 +31,7 @@ Shade shade_here(uint i, vec3 position, vec3 geometric, vec3 to_light)
     ShadowLookup lookup = ShadowLookup(v_shadow_place[min(i, 1)], v_shadow_slope[min(i, 1)]);
     if (LIGHTS > 2 && i > 1)
         lookup =
-            shadow_lookup(shadows[i], position, geometric, to_light, TRANSPORT == TRANSPORT_PREINTEGRATED, v_curvature.y);
+            shadow_lookup(shadows[i], position, geometric, to_light, TRANSPORT, v_curvature.y);
     return shadow_sample(shadow_map, shadows[i], lookup);
 }
 

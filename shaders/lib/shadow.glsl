@@ -54,19 +54,20 @@ vec2 shadow_deeper(Shadow shadow, vec4 place, vec3 position, vec3 to_light)
     return vec2(depth - place.z / place.w, step / max(depth - nearer.z / nearer.w, 1e-9));
 }
 
-// Where a point is looked up, shadow_place(), and x, y: shadow_slope(), z, w: shadow_deeper(). `enters`: light enters the
-// body, for transport preintegrated; else z and w are 0 and 1.
+// Where a point is looked up, shadow_place(), and x, y: shadow_slope(), z, w: shadow_deeper(), or 0 and 1 for a transport
+// that asks for no thickness. Transport preintegrated lets light enter the body.
 struct ShadowLookup
 {
     vec4 place, slope;
 };
-ShadowLookup shadow_lookup(Shadow shadow, vec3 position, vec3 normal, vec3 to_light, bool enters, float curvature)
+ShadowLookup shadow_lookup(Shadow shadow, vec3 position, vec3 normal, vec3 to_light, uint transport, float curvature)
 {
     vec3 at = position;
-    if (enters)
+    if (transport == TRANSPORT_PREINTEGRATED)
         enter_body(at, normal, to_light, curvature);
     vec4 place = shadow_place(shadow, at, normal, to_light);
-    vec2 depth = enters ? shadow_deeper(shadow, place, position, to_light) : vec2(0.0, 1.0);
+    vec2 depth = transport == TRANSPORT_PREINTEGRATED || transport == TRANSPORT_DIFFUSED
+                     ? shadow_deeper(shadow, place, position, to_light) : vec2(0.0, 1.0);
     return ShadowLookup(place, vec4(shadow_slope(shadow, at, normal, to_light), depth));
 }
 

@@ -22,7 +22,9 @@ layout(scalar, binding = 1) uniform Part_ { Part part; };
 layout(scalar, binding = 4) uniform Wounds_ { WoundFrame wounds[MAX_WOUNDS]; };
 layout(binding = 5) uniform sampler2D albedo_map;
 layout(binding = 6) uniform sampler2D normal_map;
+#ifndef DIFFUSED
 layout(binding = 7) uniform sampler2D occlusion_map;
+#endif
 layout(binding = 8) uniform sampler2D wound_color[MAX_WOUNDS];
 layout(binding = 9) uniform sampler2D wound_state[MAX_WOUNDS];
 layout(binding = 10) uniform sampler2D wound_relief[MAX_WOUNDS];
@@ -46,8 +48,13 @@ SkinPoint skin_here(mat3 frame, out float alpha, out float open)
         skin.normal = normalize_or(frame * vec3(mapped.xy * part.normal_scale, max(mapped.z, 0.05)), frame[2]);
     }
     open = 1;
+#ifdef DIFFUSED
+    if (AMBIENT)
+        open = v_occlusion;
+#else
     if (AMBIENT)
         open = OCCLUSION_MAP ? texture(occlusion_map, v_uv).r : v_occlusion;
+#endif
     // Unrolled by hand: indexing an array of samplers by a loop counter is ten times slower on a software
     // rasteriser.
     ADD_WOUND(0) ADD_WOUND(1) ADD_WOUND(2) ADD_WOUND(3) ADD_WOUND(4) ADD_WOUND(5) ADD_WOUND(6)

@@ -11,26 +11,29 @@ const float LEAST_WIDTH_M = 1e-6; // where no light enters
 struct DiffuseSkin
 {
     vec3 albedo;      // rho_d C
-    vec3 width;       // m, how far light spreads; preintegrated, as all that follows
-    vec3 slope, bend; // of received_bent()
+    vec3 width;       // m, how far light spreads; preintegrated and diffused, as the gain
     vec3 gain;        // what a body that bends returns more than a half space does
-    vec3 detail;      // share of the normal map's detail that diffusion leaves
+    vec3 slope, bend; // of received_bent(); preintegrated
+    vec3 detail;      // share of the normal map's detail that diffusion leaves; preintegrated
 };
 
 // scattering: m, of the part of the head: 0 where no light enters. curvature: 1/m, mean (convex: > 0) and root mean square.
 DiffuseSkin diffuse_skin(uint transport, vec3 albedo, vec3 scattering, vec2 curvature)
 {
-    DiffuseSkin skin = DiffuseSkin(albedo, vec3(0.0), vec3(1.0), vec3(0.0), vec3(1.0), vec3(1.0));
-    if (transport == TRANSPORT_PREINTEGRATED)
+    DiffuseSkin skin = DiffuseSkin(albedo, vec3(0.0), vec3(1.0), vec3(1.0), vec3(0.0), vec3(1.0));
+    if (transport == TRANSPORT_PREINTEGRATED || transport == TRANSPORT_DIFFUSED)
     {
         skin.width = max(albedo * scattering, vec3(LEAST_WIDTH_M));
+        vec3 more = max(5.6 - 6.6 * albedo, 0.0) * clamp(curvature.x * skin.width, -0.25, 0.25);
+        skin.gain = (1.0 + max(more, 0.0)) / (1.0 - min(more, 0.0));
+    }
+    if (transport == TRANSPORT_PREINTEGRATED)
+    {
         vec3 turn = min(curvature.y * skin.width, 0.25); // radians
         vec3 square = turn * turn;
         skin.bend = square / (1.0 + 7.0 * square);
         vec3 peak = 1.0 - 7.0 * skin.bend;
         skin.slope = peak - skin.bend / peak;
-        vec3 more = max(5.6 - 6.6 * albedo, 0.0) * clamp(curvature.x * skin.width, -0.25, 0.25);
-        skin.gain = (1.0 + max(more, 0.0)) / (1.0 - min(more, 0.0));
         skin.detail = PORE_WIDTH / (PORE_WIDTH + 1.6 * skin.width);
     }
     return skin;
@@ -52,14 +55,17 @@ vec3 softened(vec3 width, Shade shade)
     return 0.5 + 0.5 * side * (1.0 + blur) / (abs(side) + blur);
 }
 
-// The light that leaves the point diffusely. strength: of the light, unshadowed; local_light and local_viewer in the frame
-// of the shaded normal; facing: cosine between the light and the smooth surface.
+// The light that leaves the point diffusely; diffused: that would, if light left where it entered. strength: of the light,
+// unshadowed; local_light and local_viewer in the frame of the shaded normal; facing: cosine between the light and the
+// smooth surface.
 vec3 leaving(uint transport, DiffuseSkin skin, vec3 strength, vec3 local_light, vec3 local_viewer, float facing, Shade shade)
 {
-    if (transport != TRANSPORT_PREINTEGRATED)
+    if (transport != TRANSPORT_PREINTEGRATED && transport != TRANSPORT_DIFFUSED)
         return skin.albedo * (max(local_light.z, 0.0) * shade.visibility) * strength;
     vec3 cosine = mix(vec3(facing), vec3(local_light.z), skin.detail);
-    vec3 reflected = skin.albedo * skin.gain * received_bent(skin, cosine) * softened(skin.width, shade);
+    vec3 received = transport == TRANSPORT_DIFFUSED ? vec3(max(local_light.z, 0.0) * shade.visibility)
+                                                    : received_bent(skin, cosine) * softened(skin.width, shade);
+    vec3 reflected = skin.albedo * skin.gain * received;
     // Through a thin part, from its far side, which is taken to face the light as this side turns away from it.
     // Nothing passes what no light enters: hair, and a channel without albedo.
     vec3 passed = max(-facing, 0.0) * exp(-shade.through_m / (3.0 * skin.width)) *

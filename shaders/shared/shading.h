@@ -30,7 +30,8 @@ namespace shared {
 #define TRANSPORTS(MODEL)                                                                                                       \
     MODEL(0, Published, published, TRANSPORT_PUBLISHED) /* and by eq. (6): on all sides of the head, without a shadow */        \
     MODEL(1, Lambert, lambert, TRANSPORT_LAMBERT)       /* light leaves where it entered */                                    \
-    MODEL(2, Preintegrated, preintegrated, TRANSPORT_PREINTEGRATED) /* spread by the tissue: Penner 2011, Jimenez 2010 */
+    MODEL(2, Preintegrated, preintegrated, TRANSPORT_PREINTEGRATED) /* spread by the tissue: Penner 2011, Jimenez 2010 */        \
+    MODEL(3, Diffused, diffused, TRANSPORT_DIFFUSED) /* the same, from the light all around: d'Eon 2007, Burley 2015 */
 
 #define MODEL_CONSTANT(number, enumerator, name, constant) CONSTANT constant = number;
 WARD_MODELS(MODEL_CONSTANT)

@@ -106,15 +106,19 @@ TEST_F(Report, EachCaseRerunsOnlyThePassesItAffects)
         more.insert(picture.begin(), picture.end());
         return more;
     };
+    const auto spread = [&](Counts more) {
+        more.insert({{"coarse skin light", all}, {"skin gathered", all}, {"skin diffused", all}});
+        return more;
+    };
     const std::map<std::string, Counts> expected{
         {"still", {}},
         {"camera", picture},
         {"camera-lit", picture},
-        {"day", with({{"wound_texture", all}, {"wound_relief", all}})},
-        {"day-camera", with({{"wound_texture", all}, {"wound_relief", all}})},
+        {"day", with(spread({{"coarse skin", all}, {"wound_texture", all}, {"wound_relief", all}}))},
+        {"day-camera", with(spread({{"coarse skin", all}, {"wound_texture", all}, {"wound_relief", all}}))},
         {"light-drag", with({{"shadow", all}})},
-        {"light-rest", with({{"shadow", all}, {"skin light", all}})},
-        {"tissue", with({{"reflectance_lut", all}})},
+        {"light-rest", with(spread({{"skin shadow", all}, {"skin light", all}}))},
+        {"tissue", with(spread({{"coarse skin", all}, {"reflectance_lut", all}}))},
         {"read-back", {}}};
     for (const report_command::CaseSummary& summary : summaries)
         EXPECT_EQ(ran_counts(summary), expected.at(summary.name)) << summary.name;

@@ -78,7 +78,7 @@ Frame render(gpu::Executor& executor, const Scene& scene, const gpu::MeshBuffer&
     graph::Graph graph;
     passes::Shadows alone{.casting = 1};
     alone.lights[0] = *shadow;
-    const graph::ImageId depth = passes::add_shadows(graph, alone, mesh, std::span(&whole, 1));
+    const graph::ImageId depth = passes::add_shadows(graph, "shadow", alone, mesh, std::span(&whole, 1));
     if (receivers.empty())
         return {executor.run(graph), {}, {}};
 

@@ -23,7 +23,7 @@ void main()
     if (place.x >= imageSize(results).x || index >= receivers.length())
         return;
     Receiver r = receivers[index];
-    ShadowLookup lookup = shadow_lookup(shadow, r.position, r.normal, r.to_light, r.curvature > 0.0, r.curvature);
+    ShadowLookup lookup = shadow_lookup(shadow, r.position, r.normal, r.to_light, r.curvature > 0.0 ? TRANSPORT_PREINTEGRATED : TRANSPORT_LAMBERT, r.curvature);
     Shade shade = shadow_sample(shadow_depth, shadow, lookup);
     imageStore(results, place, vec4(place.y == 0 ? shade.visibility : shade.through_m));
 }

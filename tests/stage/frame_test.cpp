@@ -29,8 +29,11 @@ struct Studio
     }
     stage::Frame declare(graph::Graph& graph, double day, const head::Camera& camera) const
     {
-        return stage.declare(graph,
-                             {.day = day, .tile = stage.scene().size, .camera = camera, .shading = shading});
+        return stage.declare(graph, {.day = day,
+                                     .tile = stage.scene().size,
+                                     .camera = camera,
+                                     .shading = shading,
+                                     .lights_rest = false}); // kept_light_test.cpp has the passes on the skin
     }
     cv::Mat4b picture(double day) { return draw(day).mat({0}).clone(); }
 

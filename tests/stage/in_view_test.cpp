@@ -101,5 +101,6 @@ TEST(InView, BoxesInViewAreThoseThatReachIntoThePicture)
             EXPECT_TRUE(std::ranges::any_of(seen, [&](const passes::Bounds& b) { return b.min == box.min; }));
         }
     }
-    EXPECT_TRUE(passes::boxes_in_view(boxes, view({0, 0, -5}) * glm::mat4(-1)).empty()) << "behind the camera";
+    EXPECT_TRUE(passes::boxes_in_view(boxes, view({0, 0, -5}) * glm::mat4(-1)).empty())
+        << "behind the camera";
 }

@@ -2,6 +2,7 @@
 // its own pass alone, and a new day refreshes the wounds' tiles alone.
 #include <gmock/gmock.h>
 
+#include "base/color.hpp"
 #include "stage/kept_light.hpp"
 #include "tests/support/gpu.hpp"
 #include "tests/support/small_head.hpp"
@@ -81,6 +82,8 @@ TEST(KeptLight, IsThatOfEachTransportLightAndHighlight)
         EXPECT_LT(error.mean, mean_bar);
         EXPECT_LT(error.p999, small_p999_bar);
     };
+    scene.shading.transport = optics::Transport::Preintegrated;
+    check("preintegrated");
     scene.shading.transport = optics::Transport::Lambert;
     check("lambert");
     scene.shading.specular_model = optics::SpecularModel::Ward;
@@ -96,11 +99,61 @@ TEST(KeptLight, IsThatOfEachTransportLightAndHighlight)
     check("one light alone");
 }
 
+TEST(DiffusedLight, StandsWhileACameraMovesAlsoWhenEveryPixelIsLit)
+{
+    Studio studio(small_scene());
+    stage::FrameRequest request = studio.request();
+    request.light_scale.reset();
+    EXPECT_THAT(gpu_test::ran(studio.draw(request)),
+                testing::IsSupersetOf({"skin shadow", "coarse skin light", "skin diffused", "forward"}));
+    request.camera = studio.turned(.002);
+    for (const std::string& name : gpu_test::ran(studio.draw(request)))
+        EXPECT_FALSE(name.starts_with("skin") || name.starts_with("coarse")) << name;
+}
+
+TEST(DiffusedLight, IsNearThatOfDraggedLights)
+{
+    Studio studio(small::scene(small::head(), 400));
+    stage::FrameRequest request = studio.request();
+    request.light_scale.reset();
+    const auto picture = [&](bool lights_rest) {
+        request.lights_rest = lights_rest;
+        graph::Graph graph;
+        const auto back = graph.readback("picture", studio.stage.declare(graph, request).images.picture);
+        return studio.executor.run(graph).mat(back).clone();
+    };
+    const cv::Mat4b rested = picture(true), dragged = picture(false);
+    double sum = 0;
+    int differing = 0;
+    for (int y = 0; y < rested.rows; ++y)
+        for (int x = 0; x < rested.cols; ++x) {
+            const auto lab = [](const cv::Vec4b& p) {
+                return base::lab_from_linear(base::linear_from_srgb8({p[0], p[1], p[2]}));
+            };
+            sum += base::delta_e2000(lab(rested(y, x)), lab(dragged(y, x)));
+            differing += rested(y, x) != dragged(y, x);
+        }
+    EXPECT_GT(differing, 1000);
+    EXPECT_LT(sum / double(rested.total()), .5);
+}
+
+TEST(DiffusedLight, RefreshedRegionsHoldAllThatChanges)
+{
+    Studio studio(small_scene());
+    studio.executor.measure({.check_regions = true}); // throws where the picture is not the whole frame's
+    for (const double day : {2., 3., 9., 40.}) {
+        stage::FrameRequest request = studio.request(day);
+        request.light_scale.reset();
+        EXPECT_NO_THROW(studio.draw(request)) << day;
+    }
+}
+
 TEST(KeptLight, StandsWhileACameraMoves)
 {
     Studio studio(small_scene());
     EXPECT_THAT(gpu_test::ran(studio.draw(studio.request())),
-                testing::IsSupersetOf({"shadow", "skin", "skin light", "forward"}));
+                testing::IsSupersetOf(
+                    {"skin shadow", "skin", "coarse skin", "skin diffused", "skin light", "forward"}));
     EXPECT_THAT(gpu_test::ran(studio.draw(studio.request())), testing::IsEmpty());
     stage::FrameRequest request = studio.request();
     request.camera = studio.turned(.002);

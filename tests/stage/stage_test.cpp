@@ -23,9 +23,12 @@ struct Window
     graph::Graph frame(double day = 4)
     {
         graph::Graph graph;
-        graph.readback("picture",
-                       stage.declare(graph, {.day = day, .tile = stage.scene().size, .every_frame = false})
-                           .images.picture);
+        graph.readback(
+            "picture",
+            stage
+                .declare(graph,
+                         {.day = day, .tile = stage.scene().size, .every_frame = false, .lights_rest = false})
+                .images.picture);
         return graph;
     }
     std::vector<std::string> ran() { return gpu_test::ran(executor.run(frame())); }

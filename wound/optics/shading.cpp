@@ -53,7 +53,7 @@ Shading published_shading()
 Shading skin_shading()
 {
     Shading shading;
-    shading.transport = Transport::Preintegrated;
+    shading.transport = Transport::Diffused;
     shading.specular_model = SpecularModel::Skin;
     shading.rho_d = 0.862;
     shading.rho_ts = 0.25;

@@ -80,6 +80,11 @@ struct Shading
     {
         return transport == Transport::Published && !translucent() ? Transport::Lambert : transport;
     }
+    /// The same where nothing is known of the light around a point.
+    Transport pointwise_transport() const
+    {
+        return transport == Transport::Diffused ? Transport::Preintegrated : drawn_transport();
+    }
     /// W, the largest translucent weight at which a point that faces the light reflects no more light than it
     /// receives: rho_d + rho_ts W = 1.
     double translucency_bound() const;
@@ -167,19 +172,20 @@ struct ShadedPoint
     cv::Vec3d to_viewer{0, 0, 1};           // unit, in the space of `position`
     base::Color albedo{1, 1, 1};            // C of eq. (4)
     Finish finish;
-    // What transport `preintegrated` asks for:
+    // What the transports `preintegrated` and `diffused` ask for:
     std::optional<cv::Vec3d> smooth{};         // unit normal without a normal map; none: the frame's
     cv::Vec2d curvature{0, 0};                 // 1/m, of the smooth surface: mean, root mean square
     base::Color scattering_length_mm{0, 0, 0}; // scattering_length_mm() (transport.hpp)
 };
-/// What transport `preintegrated` has of a light's shadow map.
+/// What these transports have of a light's shadow map.
 struct ShadowMap
 {
     double filter_m = 1; // half width of the filter that gave the visibility
     double through_m = std::numeric_limits<double>::infinity(); // from the point to the first lit surface
 };
-/// Eq. (8) for one light. `visibility` (0 in full shadow .. 1) multiplies the direct light; as in the paper
-/// it does not affect the translucent term.
+/// Eq. (8) for one light; with transport `diffused`, what would leave if light left where it entered.
+/// `visibility` (0 in full shadow .. 1) multiplies the direct light; as in the paper it does not affect the
+/// translucent term.
 base::Color shade(const Shading& shading, const Light& light, const ShadedPoint& point, double visibility,
                   const ShadowMap& map = {});
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <numbers>
 #include <vector>
 
 #include "wound/optics/diffusion_profile.hpp"
@@ -37,8 +38,8 @@ double squared(double x)
     return x * x;
 }
 
-base::Color preintegrated(const Shading& shading, const ShadedPoint& point, const cv::Vec3d& to_light,
-                          const cv::Vec3d& incident, double visibility, const ShadowMap& map)
+base::Color spread(const Shading& shading, const ShadedPoint& point, const cv::Vec3d& to_light,
+                   const cv::Vec3d& incident, double visibility, const ShadowMap& map)
 {
     const double facing = point.smooth ? point.smooth->dot(to_light) : incident[2];
     base::Color sum;
@@ -47,9 +48,11 @@ base::Color preintegrated(const Shading& shading, const ShadedPoint& point, cons
         const double width =
             std::max(diffusion_width(albedo, 1e-3 * point.scattering_length_mm[c]), least_width_m);
         const double cosine = std::lerp(facing, incident[2], detail_left(width));
-        const double reflected = albedo * bend_gain(albedo, point.curvature[0] * width) *
-                                 received_bent(cosine, point.curvature[1] * width) *
-                                 softened(visibility, width, map.filter_m);
+        const double received = shading.transport == Transport::Diffused
+                                    ? std::max(incident[2], 0.0) * visibility
+                                    : received_bent(cosine, point.curvature[1] * width) *
+                                          softened(visibility, width, map.filter_m);
+        const double reflected = albedo * bend_gain(albedo, point.curvature[0] * width) * received;
         const double through = // nothing passes what no light enters
             width > least_width_m ? std::max(0.0, -facing) * passed(map.through_m, width) : 0;
         sum[c] = std::max(reflected, through);
@@ -82,6 +85,26 @@ double diffusion_width(double albedo, double scattering_length)
     return albedo * scattering_length;
 }
 
+double left_within(double radius, double width)
+{
+    const double t = std::exp(-radius / (3 * width));
+    return 1 - t * (t * t + 3) / 4;
+}
+
+std::array<cv::Vec3d, shared::DIFFUSION_TAPS> diffusion_taps()
+{
+    std::array<cv::Vec3d, shared::DIFFUSION_TAPS> taps;
+    const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
+    for (std::size_t k = 0; k < taps.size(); ++k) {
+        // t = e^(-r/3) solves (t^3 + 3 t) / 4 = share beyond r.
+        const double beyond = 1 - (double(k) + 0.5) / double(taps.size());
+        const double root = std::cbrt(2 * beyond + std::sqrt(4 * beyond * beyond + 1));
+        const double t = root - 1 / root, radius = -3 * std::log(t), angle = golden_angle * double(k);
+        taps[k] = {radius * std::cos(angle), radius * std::sin(angle), radius / (t * t * t + t)};
+    }
+    return taps;
+}
+
 double received_bent(double cosine, double turn)
 {
     const double within = squared(std::min(turn, 0.25)), bend = within / (1 + 7 * within);
@@ -96,8 +119,8 @@ double bend_gain(double albedo, double turn)
     return more >= 0 ? 1 + more : 1 / (1 - more);
 }
 
-// The edge response of Burley's profile is near .5 / (1 + u / .8) at u widths from the edge (.31 at .5, .22 at 1;
-// .14 instead of .13 at 2). This is it over its values at the filter's ends.
+// The edge response of Burley's profile is near .5 / (1 + u / .8) at u widths from the edge (.31 at .5, .22
+// at 1; .14 instead of .13 at 2). This is it over its values at the filter's ends.
 double softened(double visibility, double width, double filter)
 {
     const double side = 2 * visibility - 1, blur = 0.8 * width / filter + 1e-4;
@@ -118,8 +141,8 @@ double detail_left(double width_m)
 base::Color leaving(const Shading& shading, const ShadedPoint& point, const cv::Vec3d& to_light,
                     const cv::Vec3d& incident, double visibility, const ShadowMap& map)
 {
-    if (shading.transport == Transport::Preintegrated)
-        return preintegrated(shading, point, to_light, incident, visibility, map);
+    if (shading.transport == Transport::Preintegrated || shading.transport == Transport::Diffused)
+        return spread(shading, point, to_light, incident, visibility, map);
     return shading.rho_d * visibility * std::max(0.0, incident[2]) * point.albedo;
 }
 
