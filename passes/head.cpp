@@ -61,13 +61,14 @@ std::uint32_t wounds_on(const head::Model& model, std::size_t first, std::span<c
 gpu::MeshBuffer upload_mesh(const gpu::Device& device, std::span<const head::Vertex> vertices,
                             std::span<const std::uint32_t> indices, const std::string& name)
 {
-    static constexpr std::array<graph::VertexAttribute, 6> attributes{{
+    static constexpr std::array<graph::VertexAttribute, 7> attributes{{
         {"position", 3, offsetof(head::Vertex, position)},
         {"normal", 3, offsetof(head::Vertex, normal)},
         {"tangent", 4, offsetof(head::Vertex, tangent)},
         {"uv", 2, offsetof(head::Vertex, uv)},
         {"occlusion", 1, offsetof(head::Vertex, occlusion)},
         {"curvature", 2, offsetof(head::Vertex, curvature)},
+        {"thinness", 1, offsetof(head::Vertex, thinness)},
     }};
     static constexpr graph::VertexLayout layout{sizeof(head::Vertex), attributes};
     return {device, layout, std::as_bytes(vertices), indices, name};

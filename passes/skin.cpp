@@ -28,13 +28,14 @@ struct SkinVertex
     glm::vec2 outward{0.0f}; // of a skirt
 };
 
-constexpr std::array<graph::VertexAttribute, 8> attributes{{
+constexpr std::array<graph::VertexAttribute, 9> attributes{{
     {"position", 3, offsetof(SkinVertex, vertex.position)},
     {"normal", 3, offsetof(SkinVertex, vertex.normal)},
     {"tangent", 4, offsetof(SkinVertex, vertex.tangent)},
     {"uv", 2, offsetof(SkinVertex, vertex.uv)},
     {"occlusion", 1, offsetof(SkinVertex, vertex.occlusion)},
     {"curvature", 2, offsetof(SkinVertex, vertex.curvature)},
+    {"thinness", 1, offsetof(SkinVertex, vertex.thinness)},
     {"place", 2, offsetof(SkinVertex, place)},
     {"outward", 2, offsetof(SkinVertex, outward)},
 }};

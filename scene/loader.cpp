@@ -202,13 +202,11 @@ std::shared_ptr<const LoadedHead> load_head(const std::filesystem::path& chosen)
     head->face = head::find_face(*model);
     head->skin = head::skin_material(*model);
     head->bvh = std::make_shared<const head::Bvh>(*model);
-    if (!head::has_occlusion_map(*model)) {
-        const std::string problem =
-            head::bake_occlusion(*model, *head->bvh, base::cache_folder() / "occlusion");
+    const std::string problem = head::bake_occlusion(*model, *head->bvh, base::cache_folder() / "occlusion");
+    if (!head::has_occlusion_map(*model))
         head->notes.push_back(fmt::format("{}: no occlusion map: computed from the shape", file.string()));
-        if (!problem.empty())
-            head->notes.push_back(problem);
-    }
+    if (!problem.empty())
+        head->notes.push_back(problem);
     head->model = std::move(model);
     return head;
 }
