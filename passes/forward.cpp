@@ -4,6 +4,7 @@
 #include <cassert>
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
+#include <set>
 
 #include "passes/part_bindings.hpp"
 #include "passes/shading.hpp"
@@ -35,7 +36,8 @@ shared::WoundFrame wound_frame(const ForwardWound& wound)
             .lut = wound.axes,
             .epithelium = float(today.border_softness),
             .pore_loss = float(today.scar.pore_loss),
-            .sheen = float(today.scar.sheen)};
+            .sheen = float(today.scar.sheen),
+            .number = wound.index + 1};
 }
 
 /// The pixels in which a wound's images can show; all of them when the camera is inside the wound's reach.
@@ -68,12 +70,13 @@ graph::Region pixels_of(const ForwardWound& wound, const shared::View& view, std
 
 /// Declares that a new day changes the picture only where the wounds are. `shown`: HeadPart::wounds of all
 /// that is drawn; the images of a wound that reaches no triangle are not sampled.
-void confine_wounds(graph::RasterPass& pass, std::span<const ForwardWound> wounds, std::uint32_t shown,
-                    const shared::View& view, const graph::ImageDesc& target)
+void confine_wounds(graph::RasterPass& pass, std::span<const ForwardWound> wounds,
+                    const std::set<std::uint32_t>& shown, const shared::View& view,
+                    const graph::ImageDesc& target)
 {
     graph::Region all;
     for (const ForwardWound& wound : wounds) {
-        if ((shown >> wound.index & 1) == 0)
+        if (!shown.contains(wound.index))
             continue;
         const graph::Region region = pixels_of(wound, view, target.width, target.height);
         all = bounds(all, region);
@@ -111,6 +114,7 @@ shared::View make_view(const head::Camera& camera, const Head& head, const Viewp
 
 WoundUniform wound_frames(std::span<const ForwardWound> wounds)
 {
+    assert(wounds.size() <= shared::WOUNDS_HERE);
     WoundUniform uniform{};
     for (std::size_t i = 0; i < wounds.size(); ++i)
         uniform.frames[i] = wound_frame(wounds[i]);
@@ -158,7 +162,7 @@ void draw_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput
 void draw_skin(graph::RasterPass& pass, const ForwardInput& input, const SkinLight& kept,
                const optics::Shading& shading)
 {
-    for (const SkinDraw& shown : kept.skin.shown) {
+    for (const SkinShown& shown : kept.skin.shown) {
         graph::Draw& draw = pass.draw("skin");
         draw.mesh = kept.skin.mesh.get();
         draw.first_index = shown.first_index;
@@ -168,7 +172,7 @@ void draw_skin(graph::RasterPass& pass, const ForwardInput& input, const SkinLig
         draw.uniform("Part_", params);
         draw.uniform("Code_", kept.code);
         draw.constant("WARD", shading.glossy() && params.specular > 0);
-        draw.constant("WOUNDED", shown.wounds != 0);
+        draw.constant("WOUNDED", shown.wounded);
         draw.sample("light_map", kept.light);
         draw.sample("lit_normal", kept.normal);
         draw.sample("skin_gloss", kept.gloss);
@@ -180,7 +184,6 @@ void draw_skin(graph::RasterPass& pass, const ForwardInput& input, const SkinLig
 graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const shared::View& view,
                            const optics::Shading& shading, const graph::ImageDesc& target)
 {
-    assert(input.wounds.size() <= shared::MAX_WOUNDS);
     const VkFormat format = input.developed ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R16G16B16A16_SFLOAT;
     const graph::ImageId radiance =
         graph.image(input.developed ? "encoded" : "radiance", {target.width, target.height, format, 1});
@@ -222,10 +225,10 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
         graph::Draw& backdrop = pass.draw("backdrop");
         backdrop.index_count = 3;
     }
-    std::uint32_t shown = 0;
+    std::set<std::uint32_t> shown;
     for (const std::vector<HeadPart>* drawn : {&parts, &rest})
         for (const HeadPart& part : *drawn)
-            shown |= part.wounds;
+            shown.insert(part.wounds.begin(), part.wounds.end());
     confine_wounds(pass, input.wounds, shown, view, target);
     if (input.kept)
         confine_skin(pass, input, view, target);

@@ -27,6 +27,15 @@ void add_shadow_depth(graph::Graph& graph, const FrameInput& input, ForwardInput
             add_shadows(graph, forward.shadows, *input.head.caster_mesh, input.head.casters, size);
 }
 
+/// The first wound with the tissue of the i-th.
+std::size_t first_of_tissue(std::span<const FrameWound> wounds, std::size_t i)
+{
+    std::size_t first = 0;
+    while (&wounds[first].tissue != &wounds[i].tissue)
+        ++first;
+    return first;
+}
+
 } // namespace
 
 FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
@@ -40,8 +49,10 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
         const FrameWound& wound = input.wounds[i];
         const std::string suffix = i == 0 ? "" : fmt::format(" {}", i + 1);
         const WoundTexture texture = add_wound_texture(graph, suffix, wound.maps, wound.today);
-        const ReflectanceLut lut =
-            add_reflectance_lut(graph, "reflectance_lut" + suffix, wound.tissue, input.reflectance);
+        const std::size_t first = first_of_tissue(input.wounds, i);
+        const ReflectanceLut lut = first < i ? placed[first].lut
+                                             : add_reflectance_lut(graph, "reflectance_lut" + suffix,
+                                                                   wound.tissue, input.reflectance);
         placed.push_back(
             {wound.anchor, texture, lut, wound.tissue.parameters.axes, &wound.today, std::uint32_t(i)});
         images.wounds.push_back(texture);
@@ -56,7 +67,7 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
     ForwardInput forward{input.head, seen, lights, {}, {}, input.every_frame, input.scattering_length_mm};
     const bool lit = input.shading.lambertian() || input.shading.glossy();
     std::optional<SkinLight> kept;
-    if (input.skin && placed.size() <= shared::MAX_WOUNDS) {
+    if (input.skin) {
         if (input.shading.shadow && lit) // camera or not: the shadows stand as the light does
             forward.shadows = fit_shadows(lights, input.head.min, input.head.max, {}, kept_shadow_size);
         if (can_keep_light(input.shading, forward.shadows)) {

@@ -19,7 +19,7 @@ struct FrameWound
 {
     const head::Anchor& anchor;
     const WoundMaps& maps;
-    const LutTissue& tissue;
+    const LutTissue& tissue; // wounds that share it share its table
     const wound::WoundDay& today;
 };
 

@@ -14,19 +14,28 @@
 
 namespace passes {
 
+/// A piece of the skin in a tile of the atlas.
 struct SkinDraw
 {
     std::uint32_t first_index = 0, index_count = 0;
     std::uint32_t material = 0;    // of the model
-    std::uint32_t wounds = 0;      // HeadPart::wounds
+    WoundSet wounds;               // HeadPart::wounds
     glm::uvec2 corner{0}, size{0}; // units, of the tile
+};
+
+/// All of a material, or what of it wounds can show on.
+struct SkinShown
+{
+    std::uint32_t first_index = 0, index_count = 0;
+    std::uint32_t material = 0; // of the model
+    bool wounded = false;
 };
 
 struct Skin
 {
     std::shared_ptr<const gpu::MeshBuffer> mesh;
     std::vector<SkinDraw> spread; // onto the atlas, in this order
-    std::vector<SkinDraw> shown;  // to a camera
+    std::vector<SkinShown> shown; // to a camera
     /// Wounded skin that has no place in a wound's tile, in rest_mesh: its light is computed in every pixel.
     std::vector<HeadPart> rest;
     std::shared_ptr<const gpu::MeshBuffer> rest_mesh;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
+#include <ranges>
 #include <thread>
 #include <utility>
 
@@ -31,8 +33,8 @@ struct WoundLoader::Prepared
 
 namespace {
 
-constexpr std::size_t most_prepared = 8, most_fitted = 32; // some 6 MB each
-constexpr std::size_t most_jobs = 8, most_jobs_of_a_photograph = 2;
+constexpr std::size_t most_prepared = 8, most_unused = 32; // some 6 MB each
+constexpr std::ptrdiff_t most_jobs = 8, most_jobs_of_a_photograph = 2;
 
 std::uint64_t key_of(const Wound& wound, Affects affects)
 {
@@ -133,8 +135,8 @@ bool failed(const std::shared_future<T>& future)
     }
 }
 
-template <typename T>
-bool ready(const std::future<T>& future)
+template <typename Future>
+bool ready(const Future& future)
 {
     return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
@@ -239,9 +241,19 @@ WoundLoader::SharedPrepared WoundLoader::prepared(const Wound& wound, const std:
         prepared_.splice(prepared_.begin(), prepared_, found);
     else
         prepared_.emplace_front(key, std::async(std::launch::async, make_prepared, wound, name));
-    if (prepared_.size() > most_prepared)
-        prepared_.pop_back();
-    return prepared_.front().second;
+    const SharedPrepared made = prepared_.front().second;
+    // The least recently used; to drop one that is not ready would wait for it.
+    const auto oldest = std::ranges::find_if(prepared_ | std::views::reverse,
+                                             [](const auto& one) { return ready(one.second); });
+    if (prepared_.size() > most_prepared && oldest != prepared_.rend())
+        prepared_.erase(std::next(oldest).base());
+    return made;
+}
+
+void WoundLoader::begin(const Wound& wound, const std::string& name)
+{
+    if (std::ranges::count_if(prepared_, [](const auto& one) { return !ready(one.second); }) < most_jobs)
+        prepared(wound, name);
 }
 
 std::shared_ptr<const FittedPhotograph> WoundLoader::fitted(const Wound& wound,
@@ -259,9 +271,8 @@ std::shared_ptr<const FittedPhotograph> WoundLoader::fitted(const Wound& wound,
         return found->fitted;
     }
     const Key photograph = key_of(wound, Affects::Photograph);
-    const bool room =
-        begin && jobs_.size() < most_jobs &&
-        std::size_t(std::ranges::count(jobs_, photograph, &Job::photograph)) < most_jobs_of_a_photograph;
+    const bool room = begin && std::ssize(jobs_) < most_jobs &&
+                      std::ranges::count(jobs_, photograph, &Job::photograph) < most_jobs_of_a_photograph;
     if (room && std::ranges::find(jobs_, key, &Job::key) == jobs_.end())
         jobs_.push_back({key, photograph, std::async(std::launch::async, [=, made = prepared(wound, name)] {
                              return make_fitted(wound, *made.get(), *head, name);
@@ -321,8 +332,10 @@ bool WoundLoader::collect()
         fitted_.push_front(std::move(entry));
         job = jobs_.erase(job);
     }
-    while (fitted_.size() > most_fitted)
-        fitted_.pop_back();
+    // Those of a scene are kept, however many it has.
+    std::size_t unused = 0;
+    std::erase_if(
+        fitted_, [&](const Entry& entry) { return entry.fitted.use_count() <= 1 && ++unused > most_unused; });
     news_ += any;
     return any;
 }

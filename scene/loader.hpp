@@ -81,8 +81,8 @@ class WoundLoader
     /// once.
     std::shared_ptr<const FittedPhotograph> fitted(const Wound& wound, std::shared_ptr<const LoadedHead> head,
                                                    const std::string& name, bool begin = true);
-    /// Starts preparing the wound's photograph, which needs no head.
-    void begin(const Wound& wound, const std::string& name) { prepared(wound, name); }
+    /// Starts preparing the wound's photograph, which needs no head, if the number of jobs allows.
+    void begin(const Wound& wound, const std::string& name);
 
     /// The cached fit of the same photograph that is nearest in place and size; null if there is none.
     std::shared_ptr<const FittedPhotograph> similar(const Wound& wound, const head::FaceFrame& face) const;

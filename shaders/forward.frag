@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 // Shades the head: albedo and normal map, wounds projected in object space and blended by eq. (4), shading by
 // eq. (8) of Choi & Chin 2014. A term that a specialisation constant turns off is not compiled.
 #include "lib/develop.glsl"

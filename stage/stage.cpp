@@ -1,6 +1,7 @@
 #include "stage/stage.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
 
 #include "base/input_error.hpp"
@@ -131,6 +132,10 @@ Stage::Set Stage::make(const scene::Scene& scene) const
                             passes::with_wounds(*device_, *set.bare, model, set.reaches));
     for (const scene::PlacedWound& wound : set.loaded.wounds)
         set.wounds.push_back({maps_of(wound), lut_of(set, wound)});
+    if (set.wounded->crowded > 0)
+        set.loaded.notes.push_back(fmt::format(
+            "scene: /wounds: more than {0} wounds reach the same skin; there the {0} nearest ones are drawn",
+            shared::WOUNDS_HERE));
     return set;
 }
 
@@ -152,7 +157,7 @@ passes::WoundMaps Stage::maps_of(const scene::PlacedWound& wound) const
 }
 
 /// Reuses the table of another wound or of the previous set if tissue, model and healing are the same.
-passes::LutTissue Stage::lut_of(const Set& set, const scene::PlacedWound& wound) const
+Stage::SharedTissue Stage::lut_of(const Set& set, const scene::PlacedWound& wound) const
 {
     for (std::size_t i = 0; i < set.wounds.size(); ++i)
         if (set.loaded.same_tissue(set.loaded.wounds[i], wound))
@@ -166,7 +171,7 @@ passes::LutTissue Stage::lut_of(const Set& set, const scene::PlacedWound& wound)
     return make_lut(set, wound);
 }
 
-passes::LutTissue Stage::make_lut(const Set& set, const scene::PlacedWound& wound) const
+Stage::SharedTissue Stage::make_lut(const Set& set, const scene::PlacedWound& wound) const
 {
     const scene::Scene& scene = set.loaded.scene;
     const wound::LutRows rows =
@@ -177,15 +182,20 @@ passes::LutTissue Stage::make_lut(const Set& set, const scene::PlacedWound& woun
             *device_,
             wound::kept_table(rows, wound::lut_size, scene.reflectance_model, wound::picture_table_options),
             "reflectance table"));
-    return tissue;
+    return std::make_shared<const passes::LutTissue>(std::move(tissue));
 }
 
 void Stage::set_tissue(const optics::HealingTissue& tissue)
 {
     set_.loaded.tissue = tissue;
     scattering_length_mm_.reset();
-    for (std::size_t i = 0; i < set_.wounds.size(); ++i)
-        set_.wounds[i].tissue = make_lut(set_, set_.loaded.wounds[i]);
+    const std::vector<scene::PlacedWound>& placed = set_.loaded.wounds;
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        std::size_t first = 0;
+        while (!set_.loaded.same_tissue(placed[first], placed[i]))
+            ++first;
+        set_.wounds[i].tissue = first < i ? set_.wounds[first].tissue : make_lut(set_, placed[i]);
+    }
 }
 
 const passes::Skin* Stage::skin() const
@@ -244,7 +254,7 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
     std::vector<passes::FrameWound> wounds;
     for (std::size_t i = 0; i < set_.wounds.size(); ++i) {
         const DeviceWound& wound = set_.wounds[i];
-        wounds.push_back({set_.loaded.wounds[i].anchor, wound.maps, wound.tissue, (*frame.wounds)[i]});
+        wounds.push_back({set_.loaded.wounds[i].anchor, wound.maps, *wound.tissue, (*frame.wounds)[i]});
         graph.keep(wound.maps.color);
         graph.keep(wound.maps.shape);
     }

@@ -110,7 +110,7 @@ class Stage
     struct DeviceWound
     {
         passes::WoundMaps maps;
-        passes::LutTissue tissue;
+        std::shared_ptr<const passes::LutTissue> tissue; // shared by the wounds with the same table
     };
     /// A scene's data on the CPU and the device. Cheap to copy: large data is shared and immutable.
     struct Set
@@ -134,8 +134,9 @@ class Stage
 
     Set make(const scene::Scene& scene) const;
     passes::WoundMaps maps_of(const scene::PlacedWound& wound) const;
-    passes::LutTissue make_lut(const Set& set, const scene::PlacedWound& wound) const;
-    passes::LutTissue lut_of(const Set& set, const scene::PlacedWound& wound) const;
+    using SharedTissue = std::shared_ptr<const passes::LutTissue>;
+    SharedTissue make_lut(const Set& set, const scene::PlacedWound& wound) const;
+    SharedTissue lut_of(const Set& set, const scene::PlacedWound& wound) const;
     void accept(Set set);
     /// The skin with the wounds of set_; null for a head without a usable one.
     const passes::Skin* skin() const;
