@@ -48,7 +48,7 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
     for (std::size_t i = 0; i < input.wounds.size(); ++i) {
         const FrameWound& wound = input.wounds[i];
         const std::string suffix = i == 0 ? "" : fmt::format(" {}", i + 1);
-        const WoundTexture texture = add_wound_texture(graph, suffix, wound.maps, wound.today);
+        const WoundTexture texture = add_wound_texture(graph, suffix, wound.maps, wound.today, wound.warps);
         const std::size_t first = first_of_tissue(input.wounds, i);
         const ReflectanceLut lut = first < i ? placed[first].lut
                                              : add_reflectance_lut(graph, "reflectance_lut" + suffix,

@@ -43,11 +43,16 @@ std::uint64_t key_of(const Wound& wound, Affects affects)
     return hash.value();
 }
 
-std::uint64_t fitted_key(const Wound& wound, const LoadedHead& head)
+std::uint64_t prepared_key(const WantedWound& wanted)
+{
+    return base::Hash().add(key_of(wanted.wound, Affects::Preparation)).add(wanted.of_many).value();
+}
+
+std::uint64_t fitted_key(const WantedWound& wanted, const LoadedHead& head)
 {
     base::Hash hash;
-    hash_fields(hash, wound, Affects::Fit);
-    return hash.add(head.key).value();
+    hash_fields(hash, wanted.wound, Affects::Fit);
+    return hash.add(head.key).add(wanted.of_many).value();
 }
 
 std::filesystem::path head_file(const std::filesystem::path& file)
@@ -63,7 +68,8 @@ wound::TissueThickness scaled_tissue(const Wound& wound, const head::FacePoint& 
             tissue.subcutis * wound.depth_factor};
 }
 
-std::shared_ptr<const WoundLoader::Prepared> make_prepared(const Wound& wound, const std::string& name)
+std::shared_ptr<const WoundLoader::Prepared> make_prepared(const Wound& wound, const std::string& name,
+                                                           bool of_many)
 {
     auto made = std::make_shared<WoundLoader::Prepared>();
     made->tissue = scaled_tissue(wound, head::known_face_point(wound.place).value_or(head::FacePoint{}));
@@ -78,6 +84,8 @@ std::shared_ptr<const WoundLoader::Prepared> make_prepared(const Wound& wound, c
     std::vector<std::future<wound::PreparedWound>> prepared;
     for (const wound::WoundPart& part : made->parts) {
         preparation.width_mm = part.width_mm;
+        if (of_many || made->parts.size() > shared::WOUNDS_HERE)
+            preparation.patch_size = wound::shared_patch_size(part.width_mm);
         prepared.push_back(
             std::async(std::launch::async, wound::prepare, std::cref(part.photograph), preparation));
     }
@@ -157,6 +165,11 @@ wound::Photograph read_photograph(const Wound& wound)
     return photograph;
 }
 
+WantedWound wanted(const std::vector<Wound>& wounds, std::size_t index)
+{
+    return {wounds[index], name_of(wounds[index], index), wounds.size() > shared::WOUNDS_HERE};
+}
+
 void check_count(std::size_t all, std::size_t components, const std::string& name)
 {
     if (all > std::size_t(shared::MAX_WOUNDS))
@@ -233,14 +246,15 @@ std::shared_ptr<const LoadedHead> WoundLoader::head(const std::filesystem::path&
     return nullptr;
 }
 
-WoundLoader::SharedPrepared WoundLoader::prepared(const Wound& wound, const std::string& name)
+WoundLoader::SharedPrepared WoundLoader::prepared(const WantedWound& wanted)
 {
-    const Key key = key_of(wound, Affects::Preparation);
+    const Key key = prepared_key(wanted);
     const auto found = std::ranges::find(prepared_, key, &std::pair<Key, SharedPrepared>::first);
     if (found != prepared_.end())
         prepared_.splice(prepared_.begin(), prepared_, found);
     else
-        prepared_.emplace_front(key, std::async(std::launch::async, make_prepared, wound, name));
+        prepared_.emplace_front(
+            key, std::async(std::launch::async, make_prepared, wanted.wound, wanted.name, wanted.of_many));
     const SharedPrepared made = prepared_.front().second;
     // The least recently used; to drop one that is not ready would wait for it.
     const auto oldest = std::ranges::find_if(prepared_ | std::views::reverse,
@@ -250,17 +264,17 @@ WoundLoader::SharedPrepared WoundLoader::prepared(const Wound& wound, const std:
     return made;
 }
 
-void WoundLoader::begin(const Wound& wound, const std::string& name)
+void WoundLoader::begin(const WantedWound& wanted)
 {
     if (std::ranges::count_if(prepared_, [](const auto& one) { return !ready(one.second); }) < most_jobs)
-        prepared(wound, name);
+        prepared(wanted);
 }
 
-std::shared_ptr<const FittedPhotograph> WoundLoader::fitted(const Wound& wound,
-                                                            std::shared_ptr<const LoadedHead> head,
-                                                            const std::string& name, bool begin)
+std::shared_ptr<const FittedPhotograph>
+WoundLoader::fitted(const WantedWound& wanted, std::shared_ptr<const LoadedHead> head, bool begin)
 {
-    const Key key = fitted_key(wound, *head);
+    const Wound& wound = wanted.wound;
+    const Key key = fitted_key(wanted, *head);
     if (const auto found = std::ranges::find(fitted_, key, &Entry::key); found != fitted_.end()) {
         if (found->failed) {
             const std::exception_ptr failed = found->failed;
@@ -274,9 +288,11 @@ std::shared_ptr<const FittedPhotograph> WoundLoader::fitted(const Wound& wound,
     const bool room = begin && std::ssize(jobs_) < most_jobs &&
                       std::ranges::count(jobs_, photograph, &Job::photograph) < most_jobs_of_a_photograph;
     if (room && std::ranges::find(jobs_, key, &Job::key) == jobs_.end())
-        jobs_.push_back({key, photograph, std::async(std::launch::async, [=, made = prepared(wound, name)] {
-                             return make_fitted(wound, *made.get(), *head, name);
-                         })});
+        jobs_.push_back({key, photograph,
+                         std::async(std::launch::async,
+                                    [=, made = prepared(wanted), wound = Wound(wound), name = wanted.name] {
+                                        return make_fitted(wound, *made.get(), *head, name);
+                                    })});
     return nullptr;
 }
 

@@ -107,10 +107,10 @@ void Stage::prefetch(const scene::Scene& scene) const
     try {
         const auto head = loader_->head(scene.head, set_.loaded.head);
         for (std::size_t i = 0; i < scene.wounds.size(); ++i)
-            if (const std::string name = name_of(scene.wounds[i], i); head)
-                loader_->fitted(scene.wounds[i], head, name);
+            if (head)
+                loader_->fitted(wanted(scene.wounds, i), head);
             else
-                loader_->begin(scene.wounds[i], name);
+                loader_->begin(wanted(scene.wounds, i));
     } catch (const base::InputError&) {
         return; // update() tries again and reports the error
     }
@@ -226,19 +226,25 @@ base::Color Stage::scattering_length_mm(const optics::Shading& shading) const
     return *scattering_length_mm_;
 }
 
-std::shared_ptr<const std::vector<wound::WoundDay>> Stage::wounds_on(double day) const
+Stage::KnownDay Stage::known_day(double day) const
 {
     const auto known = std::ranges::find(known_days_, day, &KnownDay::day);
-    KnownDay found =
-        known != known_days_.end()
-            ? *known
-            : KnownDay{day, std::make_shared<const std::vector<wound::WoundDay>>(set_.loaded.wounds_on(day))};
-    if (known != known_days_.end())
+    KnownDay found{day, nullptr, nullptr};
+    if (known != known_days_.end()) {
+        found = *known;
         known_days_.erase(known);
+    } else {
+        std::vector<wound::WoundDay> wounds = set_.loaded.wounds_on(day);
+        std::vector<passes::PackedWarps> warps;
+        for (const wound::WoundDay& today : wounds)
+            warps.push_back(passes::pack_warps(today));
+        found.wounds = std::make_shared<const std::vector<wound::WoundDay>>(std::move(wounds));
+        found.warps = std::make_shared<const std::vector<passes::PackedWarps>>(std::move(warps));
+    }
     known_days_.push_front(found);
     if (known_days_.size() > most_known_days)
         known_days_.pop_back();
-    return found.wounds;
+    return found;
 }
 
 shared::View Stage::view(const head::Camera& camera, const passes::ViewportTile& tile) const
@@ -250,11 +256,13 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
 {
     const scene::Scene& scene = set_.loaded.scene;
     const optics::Shading shading = request.shading.value_or(scene.shading);
-    Frame frame{{}, wounds_on(request.day)};
+    const KnownDay today = known_day(request.day);
+    Frame frame{{}, today.wounds};
     std::vector<passes::FrameWound> wounds;
     for (std::size_t i = 0; i < set_.wounds.size(); ++i) {
         const DeviceWound& wound = set_.wounds[i];
-        wounds.push_back({set_.loaded.wounds[i].anchor, wound.maps, *wound.tissue, (*frame.wounds)[i]});
+        wounds.push_back(
+            {set_.loaded.wounds[i].anchor, wound.maps, *wound.tissue, (*today.wounds)[i], (*today.warps)[i]});
         graph.keep(wound.maps.color);
         graph.keep(wound.maps.shape);
     }

@@ -92,7 +92,10 @@ class Stage
     void set_tissue(const optics::HealingTissue& tissue);
 
     /// The states of the placed wounds on a day. The last few requested days are cached.
-    std::shared_ptr<const std::vector<wound::WoundDay>> wounds_on(double day) const;
+    std::shared_ptr<const std::vector<wound::WoundDay>> wounds_on(double day) const
+    {
+        return known_day(day).wounds;
+    }
 
     /// The view of a camera for a tile.
     shared::View view(const head::Camera& camera, const passes::ViewportTile& tile) const;
@@ -130,8 +133,10 @@ class Stage
     {
         double day = 0;
         std::shared_ptr<const std::vector<wound::WoundDay>> wounds;
+        std::shared_ptr<const std::vector<passes::PackedWarps>> warps; // the same
     };
 
+    KnownDay known_day(double day) const;
     Set make(const scene::Scene& scene) const;
     passes::WoundMaps maps_of(const scene::PlacedWound& wound) const;
     using SharedTissue = std::shared_ptr<const passes::LutTissue>;
