@@ -43,7 +43,7 @@ DiffuseSkin diffuse_skin(uint transport, vec3 albedo, vec3 scattering, vec2 curv
 // thinness: 1/m, of the part of the head, 0: thick.
 vec3 surroundings_left(uint transport, DiffuseSkin skin, vec3 seen, float thinness)
 {
-    if (transport != TRANSPORT_PREINTEGRATED)
+    if (transport != TRANSPORT_PREINTEGRATED && transport != TRANSPORT_DIFFUSED)
         return seen;
     vec3 albedo = clamp(skin.albedo, 1e-3, 0.99), square = albedo * albedo;
     vec3 depth = 3.0 * skin.width / (1.0 - square * sqrt(albedo));

@@ -145,7 +145,7 @@ double surroundings_passed(double albedo, double thickness, double width)
 
 base::Color surroundings_left(const Shading& shading, const ShadedPoint& point, const base::Color& seen)
 {
-    if (shading.transport != Transport::Preintegrated)
+    if (shading.transport != Transport::Preintegrated && shading.transport != Transport::Diffused)
         return seen;
     base::Color left;
     for (int c = 0; c < 3; ++c) {
