@@ -20,6 +20,7 @@ struct Vertex
     float occlusion = 1; // share of surroundings that reach it; of materials without a map (head/occlusion.hpp)
     /// 1/m, of the two principal curvatures: mean (convex: > 0), root mean square; compute_curvature() sets it.
     glm::vec2 curvature{0.0f};
+    float thinness = 0; // 1/m, 0 where nothing passes; bake_occlusion() (head/occlusion.hpp) sets it
 };
 
 enum class AlphaMode : std::uint8_t

@@ -18,10 +18,48 @@ namespace {
 
 constexpr float start_offset = 3e-4f; // metres along the normal, to avoid hitting the vertex's own triangles
 
-constexpr std::uint64_t occlusion_version = 1;   // goes up when the same mesh gets another occlusion
+constexpr float deepest = 0.02f;       // metres: thicker bodies let no light through
+constexpr double typical_depth = 2e-3; // metres, over which light in a body falls to 1/e
+constexpr double least_passed = 1e-4;  // of the light; less is none
+constexpr double most_thinness = 2000; // 1/m
+
+constexpr std::uint64_t occlusion_version = 2;   // goes up when the same mesh gets other values
 constexpr int most_rays = 128, fewest_rays = 16; // of a point
 constexpr std::size_t rays_in_all = 16'000'000;  // beyond 125,000 points each gets fewer
 constexpr float smoothed_over = 2e-3f; // metres: occlusion hardly changes along an edge as short as this
+
+/// Directions into the hemisphere around a normal, as dense as the cosine. The same at every point but for a
+/// turn about the normal.
+class Hemisphere
+{
+  public:
+    // A Fibonacci spiral on the unit disc, projected to the hemisphere: density proportional to the cosine
+    // (Malley's method).
+    explicit Hemisphere(int rays)
+    {
+        for (int i = 0; i < rays; ++i) {
+            const float r2 = (static_cast<float>(i) + 0.5f) / static_cast<float>(rays);
+            const float angle = glm::two_pi<float>() * glm::fract(static_cast<float>(i) * 0.61803399f);
+            directions_.emplace_back(std::sqrt(r2) * std::cos(angle), std::sqrt(r2) * std::sin(angle),
+                                     std::sqrt(1.0f - r2));
+        }
+    }
+
+    template <typename Use> // void(direction)
+    void for_each(const glm::vec3& n, int point, const Use& use) const
+    {
+        const glm::vec3 helper = std::abs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+        const glm::vec3 x = glm::normalize(glm::cross(helper, n)), y = glm::cross(n, x);
+        const float turn = glm::two_pi<float>() * glm::fract(static_cast<float>(point) * 0.75487767f);
+        const glm::vec3 tx = std::cos(turn) * x + std::sin(turn) * y,
+                        ty = std::cos(turn) * y - std::sin(turn) * x;
+        for (const glm::vec3& d : directions_)
+            use(glm::dvec3(d.x * tx + d.y * ty + d.z * n));
+    }
+
+  private:
+    std::vector<glm::vec3> directions_;
+};
 
 /// Vertices that differ in texture coordinates only: of one place and normal.
 struct OcclusionPoints
@@ -102,8 +140,53 @@ void smooth(std::vector<float>& open, const Model& model, const OcclusionPoints&
     }
 }
 
-/// One byte for each vertex, 255 open: as fine as in a map, and the same whether computed or read.
-std::vector<std::uint8_t> occlusion_bytes(const Model& model, const Bvh& bvh)
+/// The slab, in e-foldings, through which this share comes of light from all around that goes straight: of 2
+/// E3(x).
+double slab_that_passes(double share)
+{
+    double low = 0, high = 20;
+    for (int i = 0; i < 40; ++i) {
+        const double x = (low + high) / 2;
+        const double passed = std::exp(-x) * (1 - x) - x * x * std::expint(-x);
+        (passed > share ? low : high) = x;
+    }
+    return low;
+}
+
+/// Vertex::thinness of each point, from the occlusion of all.
+std::vector<float> thinness(const Model& model, const Bvh& bvh, const OcclusionPoints& points,
+                            std::span<const float> open, int rays)
+{
+    const Hemisphere hemisphere(rays);
+    std::vector<float> result(points.positions.size());
+    cv::parallel_for_(cv::Range(0, int(result.size())), [&](const cv::Range& range) {
+        for (int p = range.start; p < range.end; ++p) {
+            const glm::vec3 inward = -points.normals[p];
+            const glm::dvec3 start(points.positions[p] + start_offset * inward);
+            double passed = 0;
+            hemisphere.for_each(inward, p, [&](const glm::dvec3& direction) {
+                const auto hit = bvh.nearest(start, direction, 0, deepest, Facing::Both,
+                                             [&](const Hit& at) { return occludes(model, at.material); });
+                if (!hit || hit->front)
+                    return; // no end near, or another body begins
+                const auto open_at = [&](std::uint32_t corner) {
+                    return double(open[points.of_vertex[model.indices[hit->triangle + corner]]]);
+                };
+                const double length = hit->distance + start_offset / glm::dot(direction, glm::dvec3(inward));
+                passed += std::exp(-length / typical_depth) *
+                          ((1 - hit->u - hit->v) * open_at(0) + hit->u * open_at(1) + hit->v * open_at(2));
+            });
+            passed /= rays;
+            if (passed > least_passed)
+                result[p] = float(std::min(1 / (typical_depth * slab_that_passes(passed)), most_thinness));
+        }
+    });
+    return result;
+}
+
+/// Two bytes for each vertex, the same whether computed or read: the occlusion of all, 255 open, as fine as
+/// in a map, and then the thinness of all.
+std::vector<std::uint8_t> baked_bytes(const Model& model, const Bvh& bvh)
 {
     const OcclusionPoints points = occlusion_points(model);
     const std::size_t count = std::max<std::size_t>(points.positions.size(), 1);
@@ -112,20 +195,30 @@ std::vector<std::uint8_t> occlusion_bytes(const Model& model, const Bvh& bvh)
         ambient_occlusion(bvh, points.positions, points.normals, rays, occlusion_reach,
                           [&](const Hit& hit) { return occludes(model, hit.material); });
     smooth(open, model, points, (most_rays - rays + 3 * rays - 1) / (3 * rays)); // by about 3 rings' worth
-    std::vector<std::uint8_t> bytes(model.vertices.size(), 255);
-    for (std::size_t i = 0; i < bytes.size(); ++i)
-        if (points.of_vertex[i] != OcclusionPoints::no_point)
-            bytes[i] = std::uint8_t(std::lround(255 * open[points.of_vertex[i]]));
+    const std::vector<float> thin = thinness(model, bvh, points, open, rays);
+    const std::size_t vertices = model.vertices.size();
+    std::vector<std::uint8_t> bytes(2 * vertices, 255);
+    std::fill(bytes.begin() + std::ptrdiff_t(vertices), bytes.end(), std::uint8_t(0));
+    for (std::size_t i = 0; i < vertices; ++i)
+        if (const std::uint32_t point = points.of_vertex[i]; point != OcclusionPoints::no_point) {
+            bytes[i] = std::uint8_t(std::lround(255 * open[point]));
+            bytes[vertices + i] = std::uint8_t(std::lround(255 / most_thinness * thin[point]));
+        }
     return bytes;
 }
 
-void set_occlusion(Model& model, std::span<const std::uint8_t> bytes)
+void set_baked(Model& model, std::span<const std::uint8_t> bytes)
 {
-    for (std::size_t i = 0; i < model.vertices.size(); ++i)
-        model.vertices[i].occlusion = float(bytes[i]) / 255;
+    const std::size_t vertices = model.vertices.size();
+    const bool has_map = has_occlusion_map(model);
+    for (std::size_t i = 0; i < vertices; ++i) {
+        if (!has_map)
+            model.vertices[i].occlusion = float(bytes[i]) / 255;
+        model.vertices[i].thinness = float(bytes[vertices + i]) * float(most_thinness / 255);
+    }
 }
 
-/// Of all that the occlusion depends on.
+/// Of all that the bytes depend on.
 std::uint64_t occlusion_key(const Model& model)
 {
     base::Hash hash;
@@ -148,7 +241,7 @@ std::array<std::uint8_t, 8> checksum(std::span<const std::uint8_t> bytes)
 }
 
 /// The file's bytes without its checksum; nothing when it is missing or damaged.
-std::vector<std::uint8_t> read_occlusion(const std::filesystem::path& file, std::size_t count)
+std::vector<std::uint8_t> read_baked(const std::filesystem::path& file, std::size_t count)
 {
     std::error_code ignored;
     if (std::filesystem::file_size(file, ignored) != count + 8 || ignored)
@@ -171,28 +264,15 @@ std::vector<float> ambient_occlusion(const Bvh& bvh, std::span<const glm::vec3> 
                                      std::span<const glm::vec3> normals, int rays, float reach,
                                      HitFilter accept)
 {
-    // A Fibonacci spiral on the unit disc, projected to the hemisphere: density proportional to the cosine
-    // (Malley's method).
-    std::vector<glm::vec3> directions;
-    for (int i = 0; i < rays; ++i) {
-        const float r2 = (static_cast<float>(i) + 0.5f) / static_cast<float>(rays);
-        const float angle = glm::two_pi<float>() * glm::fract(static_cast<float>(i) * 0.61803399f);
-        directions.emplace_back(std::sqrt(r2) * std::cos(angle), std::sqrt(r2) * std::sin(angle),
-                                std::sqrt(1.0f - r2));
-    }
+    const Hemisphere hemisphere(rays);
     std::vector<float> open(positions.size());
     cv::parallel_for_(cv::Range(0, static_cast<int>(positions.size())), [&](const cv::Range& range) {
         for (int v = range.start; v < range.end; ++v) {
-            const glm::vec3 n = normals[v];
-            const glm::vec3 helper = std::abs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-            const glm::vec3 x = glm::normalize(glm::cross(helper, n)), y = glm::cross(n, x);
-            const float turn = glm::two_pi<float>() * glm::fract(static_cast<float>(v) * 0.75487767f);
-            const glm::vec3 tx = std::cos(turn) * x + std::sin(turn) * y,
-                            ty = std::cos(turn) * y - std::sin(turn) * x;
-            const glm::dvec3 start(positions[v] + start_offset * n);
+            const glm::dvec3 start(positions[v] + start_offset * normals[v]);
             int free = 0;
-            for (const glm::vec3& d : directions)
-                free += !bvh.any(start, glm::dvec3(d.x * tx + d.y * ty + d.z * n), reach, accept);
+            hemisphere.for_each(normals[v], v, [&](const glm::dvec3& direction) {
+                free += !bvh.any(start, direction, reach, accept);
+            });
             open[v] = static_cast<float>(free) / static_cast<float>(rays);
         }
     });
@@ -207,12 +287,12 @@ bool has_occlusion_map(const Model& model)
 std::string bake_occlusion(Model& model, const Bvh& bvh, const std::filesystem::path& folder)
 {
     const std::filesystem::path file = folder / fmt::format("{:016x}.bin", occlusion_key(model));
-    if (const auto kept = read_occlusion(file, model.vertices.size()); !kept.empty()) {
-        set_occlusion(model, kept);
+    if (const auto kept = read_baked(file, 2 * model.vertices.size()); !kept.empty()) {
+        set_baked(model, kept);
         return {};
     }
-    std::vector<std::uint8_t> bytes = occlusion_bytes(model, bvh);
-    set_occlusion(model, bytes);
+    std::vector<std::uint8_t> bytes = baked_bytes(model, bvh);
+    set_baked(model, bytes);
     const auto sum = checksum(bytes);
     bytes.insert(bytes.end(), sum.begin(), sum.end());
     try {
@@ -220,7 +300,7 @@ std::string bake_occlusion(Model& model, const Bvh& bvh, const std::filesystem::
         base::write_bytes(file, bytes);
         return {};
     } catch (const base::InputError& error) {
-        return fmt::format("the occlusion is not kept for the next time: {}: {}", error.where(),
+        return fmt::format("occlusion and thin parts are not kept for the next time: {}: {}", error.where(),
                            error.problem());
     }
 }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
+#include <set>
 
 #include "passes/diffusion.hpp"
 #include "passes/part_bindings.hpp"
@@ -35,7 +36,8 @@ shared::WoundFrame wound_frame(const ForwardWound& wound)
             .lut = wound.axes,
             .epithelium = float(today.border_softness),
             .pore_loss = float(today.scar.pore_loss),
-            .sheen = float(today.scar.sheen)};
+            .sheen = float(today.scar.sheen),
+            .number = wound.index + 1};
 }
 
 /// The pixels in which a wound's images can show, or light that has spread from there; all of them when the
@@ -71,12 +73,13 @@ graph::Region pixels_of(const ForwardWound& wound, double reach_m, const shared:
 
 /// Declares that a new day changes the picture only where the wounds are. `shown`: HeadPart::wounds of all
 /// that is drawn; the images of a wound that reaches no triangle are not sampled.
-void confine_wounds(graph::RasterPass& pass, std::span<const ForwardWound> wounds, std::uint32_t shown,
-                    const shared::View& view, const graph::ImageDesc& target)
+void confine_wounds(graph::RasterPass& pass, std::span<const ForwardWound> wounds,
+                    const std::set<std::uint32_t>& shown, const shared::View& view,
+                    const graph::ImageDesc& target)
 {
     graph::Region all;
     for (const ForwardWound& wound : wounds) {
-        if ((shown >> wound.index & 1) == 0)
+        if (!shown.contains(wound.index))
             continue;
         const graph::Region region = pixels_of(wound, 0, view, target.width, target.height);
         all = bounds(all, region);
@@ -116,6 +119,7 @@ shared::View make_view(const head::Camera& camera, const Head& head, const Viewp
 
 WoundUniform wound_frames(std::span<const ForwardWound> wounds)
 {
+    assert(wounds.size() <= shared::WOUNDS_HERE);
     WoundUniform uniform{};
     for (std::size_t i = 0; i < wounds.size(); ++i)
         uniform.frames[i] = wound_frame(wounds[i]);
@@ -140,9 +144,9 @@ void prepare_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardIn
                 graph::Sampler::NearestClamp);
 }
 
-const HeadPart& part_of(const ForwardInput& input, const SkinDraw& piece)
+const HeadPart& part_of(const ForwardInput& input, std::uint32_t material)
 {
-    return *std::ranges::find(input.head.parts, piece.material, &HeadPart::material);
+    return *std::ranges::find(input.head.parts, material, &HeadPart::material);
 }
 
 /// Parts of the mesh whose light is computed in every pixel.
@@ -173,11 +177,11 @@ void draw_diffused(graph::Graph& graph, graph::RasterPass& pass, const ForwardIn
         draw.mesh = input.skin->mesh.get();
         draw.first_index = piece.first_index;
         draw.index_count = piece.index_count;
-        const HeadPart& part = part_of(input, piece);
+        const HeadPart& part = part_of(input, piece.material);
         const shared::Part params = part_params(part, shading);
         draw.uniform("Part_", params);
         draw.constant("WARD", shading.glossy() && params.specular > 0);
-        bind_part(graph, draw, input.head, part, piece.wounds, input.wounds, !input.around);
+        bind_part(graph, draw, input.head, part, piece.wounds, input.wounds);
         if (input.around) {
             draw.constant("TRANSPORT", std::uint32_t(optics::Transport::Diffused));
             draw.sample("diffused_light", input.around->light);
@@ -189,16 +193,16 @@ void draw_diffused(graph::Graph& graph, graph::RasterPass& pass, const ForwardIn
 void draw_skin(graph::RasterPass& pass, const ForwardInput& input, const SkinLight& kept,
                const optics::Shading& shading)
 {
-    for (const SkinDraw& shown : kept.skin.shown) {
+    for (const SkinShown& shown : kept.skin.shown) {
         graph::Draw& draw = pass.draw("skin");
         draw.mesh = kept.skin.mesh.get();
         draw.first_index = shown.first_index;
         draw.index_count = shown.index_count;
-        const shared::Part params = part_params(part_of(input, shown), shading);
+        const shared::Part params = part_params(part_of(input, shown.material), shading);
         draw.uniform("Part_", params);
         draw.uniform("Code_", kept.code);
         draw.constant("WARD", shading.glossy() && params.specular > 0);
-        draw.constant("WOUNDED", shown.wounds != 0);
+        draw.constant("WOUNDED", shown.wounded);
         draw.sample("light_map", kept.light);
         draw.sample("lit_normal", kept.normal);
         draw.sample("skin_gloss", kept.gloss);
@@ -210,7 +214,6 @@ void draw_skin(graph::RasterPass& pass, const ForwardInput& input, const SkinLig
 graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const shared::View& view,
                            const optics::Shading& shading, const graph::ImageDesc& target)
 {
-    assert(input.wounds.size() <= shared::MAX_WOUNDS);
     const VkFormat format = input.developed ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R16G16B16A16_SFLOAT;
     const graph::ImageId radiance =
         graph.image(input.developed ? "encoded" : "radiance", {target.width, target.height, format, 1});
@@ -240,11 +243,9 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
         std::erase_if(parts, [&](const HeadPart& part) {
             return std::ranges::find(input.skin->materials, part.material) != input.skin->materials.end();
         });
-        lit = input.skin->rest;
+        lit = input.kept ? input.skin->rest : input.skin->lit;
         if (input.kept)
             draw_skin(pass, input, *input.kept, shading);
-        else
-            lit.insert(lit.end(), input.skin->shown.begin(), input.skin->shown.end());
     }
     draw_diffused(graph, pass, input, lit, shading);
     draw_parts(graph, pass, input, parts, shading);
@@ -254,11 +255,11 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
         graph::Draw& backdrop = pass.draw("backdrop");
         backdrop.index_count = 3;
     }
-    std::uint32_t shown = 0;
+    std::set<std::uint32_t> shown;
     for (const HeadPart& part : parts)
-        shown |= part.wounds;
+        shown.insert(part.wounds.begin(), part.wounds.end());
     for (const SkinDraw& piece : lit)
-        shown |= piece.wounds;
+        shown.insert(piece.wounds.begin(), piece.wounds.end());
     confine_wounds(pass, input.wounds, shown, view, target);
     if (const SkinLight* kept = input.kept)
         confine_skin(pass, {kept->light, kept->normal, kept->gloss}, kept->wounded, kept->reach_m,

@@ -34,12 +34,13 @@ struct ForwardWound
     std::uint32_t index = 0; // in with_wounds()
 };
 
-/// The wounds' uniform block, read by project_wound() and add_wound() (shaders/lib/wound_projection.glsl).
+/// The uniform block of a draw's wounds, read by project_wound() and add_wound()
+/// (shaders/lib/wound_projection.glsl).
 struct WoundUniform
 {
-    shared::WoundFrame frames[shared::MAX_WOUNDS];
+    shared::WoundFrame frames[shared::WOUNDS_HERE];
 };
-WoundUniform wound_frames(std::span<const ForwardWound> wounds);
+WoundUniform wound_frames(std::span<const ForwardWound> wounds); // at most shared::WOUNDS_HERE
 
 struct Skin;
 struct SkinLight;
@@ -48,7 +49,7 @@ struct DiffusedLight;
 struct ForwardInput
 {
     const Head& head;
-    std::span<const ForwardWound> wounds;      // at most shared::MAX_WOUNDS
+    std::span<const ForwardWound> wounds;
     std::span<const optics::Light> lights;     // at most shared::MAX_LIGHTS
     Shadows shadows;                           // of the lights
     graph::ImageId shadow_depth;               // used when a light casts a shadow

@@ -35,7 +35,7 @@ OnSkin add_light_on_skin(graph::Graph& graph, const FrameInput& input, ForwardIn
     const bool diffused = input.shading.transport == optics::Transport::Diffused && input.diffusion_scale &&
                           input.shading.lambertian();
     OnSkin result;
-    if (!input.skin || on_skin.wounds.size() > shared::MAX_WOUNDS || (!input.kept_scale && !diffused))
+    if (!input.skin || (!input.kept_scale && !diffused))
         return result;
     if (input.shading.shadow)
         on_skin.shadows = fit_shadows(on_skin.lights, input.head.min, input.head.max, {}, kept_shadow_size);
@@ -56,6 +56,15 @@ OnSkin add_light_on_skin(graph::Graph& graph, const FrameInput& input, ForwardIn
     return result;
 }
 
+/// The first wound with the tissue of the i-th.
+std::size_t first_of_tissue(std::span<const FrameWound> wounds, std::size_t i)
+{
+    std::size_t first = 0;
+    while (&wounds[first].tissue != &wounds[i].tissue)
+        ++first;
+    return first;
+}
+
 } // namespace
 
 FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
@@ -68,9 +77,11 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
     for (std::size_t i = 0; i < input.wounds.size(); ++i) {
         const FrameWound& wound = input.wounds[i];
         const std::string suffix = i == 0 ? "" : fmt::format(" {}", i + 1);
-        const WoundTexture texture = add_wound_texture(graph, suffix, wound.maps, wound.today);
-        const ReflectanceLut lut =
-            add_reflectance_lut(graph, "reflectance_lut" + suffix, wound.tissue, input.reflectance);
+        const WoundTexture texture = add_wound_texture(graph, suffix, wound.maps, wound.today, wound.warps);
+        const std::size_t first = first_of_tissue(input.wounds, i);
+        const ReflectanceLut lut = first < i ? placed[first].lut
+                                             : add_reflectance_lut(graph, "reflectance_lut" + suffix,
+                                                                   wound.tissue, input.reflectance);
         placed.push_back(
             {wound.anchor, texture, lut, wound.tissue.parameters.axes, &wound.today, std::uint32_t(i)});
         images.wounds.push_back(texture);

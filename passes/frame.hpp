@@ -19,8 +19,9 @@ struct FrameWound
 {
     const head::Anchor& anchor;
     const WoundMaps& maps;
-    const LutTissue& tissue;
+    const LutTissue& tissue; // wounds that share it share its table
     const wound::WoundDay& today;
+    const PackedWarps& warps; // of today
 };
 
 /// The contents of a frame. The caller must keep everything alive during add_frame().

@@ -2,24 +2,57 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <opencv2/imgproc.hpp>
 
+#include "shaders/shared/frame.h"
+
 namespace passes {
 namespace {
+
+/// Its middle, and a distance from it within which the triangle and its box in any frame lie.
+std::pair<glm::dvec3, double> ball_around(const head::Model& model, std::size_t first)
+{
+    const auto corners = head::corners_of(model, first);
+    const glm::dvec3 middle = (glm::dvec3(corners[0]) + glm::dvec3(corners[1]) + glm::dvec3(corners[2])) / 3.;
+    double radius = 0;
+    for (const glm::vec3& corner : corners)
+        radius = std::max(radius, glm::distance(glm::dvec3(corner), middle));
+    return {middle, std::sqrt(3.) * radius};
+}
+
+/// All wounds that can show on the triangle.
+WoundSet wounds_reaching(const head::Model& model, std::size_t first, std::span<const WoundReach> wounds)
+{
+    const double farthest = std::sqrt(2 + head::Anchor::reach * head::Anchor::reach); // half widths
+    const auto [middle, radius] = ball_around(model, first);
+    WoundSet set;
+    for (std::size_t k = 0; k < wounds.size(); ++k) {
+        const head::Anchor& anchor = wounds[k].anchor;
+        const double within = farthest * anchor.half_width_m + radius;
+        const glm::dvec3 apart = middle - anchor.centre;
+        if (!(glm::dot(apart, apart) > within * within) && wounds[k].holds(model, first))
+            set.push_back(std::uint32_t(k));
+    }
+    return set;
+}
 
 /// Splits a part by the sets of wounds that can show on a triangle; appends to `indices` and to the parts of
 /// `head`, and to its wounded triangles.
 void append_split(const head::Model& model, std::span<const WoundReach> wounds, HeadPart part,
                   std::vector<std::uint32_t>& indices, Head& head)
 {
-    std::map<std::uint32_t, std::vector<std::uint32_t>> split; // by HeadPart::wounds
+    std::map<WoundSet, std::vector<std::uint32_t>> split; // by HeadPart::wounds
     for (std::uint32_t i = part.first_index; i + 2 < part.first_index + part.index_count; i += 3) {
-        const std::uint32_t set = part.surface == head::Surface::Skin ? wounds_on(model, i, wounds) : 0;
-        for (std::size_t k = 0; k < wounds.size(); ++k)
-            if ((set >> k & 1) != 0)
-                head.wounded[k].push_back({head::corners_of(model, i), part.double_sided});
+        WoundSet set;
+        if (part.surface == head::Surface::Skin)
+            set = wounds_reaching(model, i, wounds);
+        head.crowded += set.size() > shared::WOUNDS_HERE;
+        set = drawn_near(std::move(set), ball_around(model, i).first, wounds);
+        for (const std::uint32_t k : set)
+            head.wounded[k].push_back({head::corners_of(model, i), part.double_sided});
         split[set].insert(split[set].end(), &model.indices[i], &model.indices[i] + 3);
     }
     for (const auto& [set, triangles] : split) {
@@ -50,24 +83,35 @@ bool WoundReach::holds(const head::Model& model, std::size_t first) const
            most.z >= -head::Anchor::reach;
 }
 
-std::uint32_t wounds_on(const head::Model& model, std::size_t first, std::span<const WoundReach> wounds)
+WoundSet drawn_near(WoundSet wounds, const glm::dvec3& point, std::span<const WoundReach> reaches)
 {
-    std::uint32_t set = 0;
-    for (std::size_t k = 0; k < wounds.size(); ++k)
-        set |= std::uint32_t(wounds[k].holds(model, first)) << k;
-    return set;
+    if (wounds.size() <= shared::WOUNDS_HERE)
+        return wounds;
+    std::ranges::stable_sort(wounds, {}, [&](std::uint32_t k) {
+        const head::Anchor& anchor = reaches[k].anchor;
+        return glm::distance(anchor.centre, point) / anchor.half_width_m;
+    });
+    wounds.resize(shared::WOUNDS_HERE);
+    std::ranges::sort(wounds);
+    return wounds;
+}
+
+WoundSet wounds_on(const head::Model& model, std::size_t first, std::span<const WoundReach> wounds)
+{
+    return drawn_near(wounds_reaching(model, first, wounds), ball_around(model, first).first, wounds);
 }
 
 gpu::MeshBuffer upload_mesh(const gpu::Device& device, std::span<const head::Vertex> vertices,
                             std::span<const std::uint32_t> indices, const std::string& name)
 {
-    static constexpr std::array<graph::VertexAttribute, 6> attributes{{
+    static constexpr std::array<graph::VertexAttribute, 7> attributes{{
         {"position", 3, offsetof(head::Vertex, position)},
         {"normal", 3, offsetof(head::Vertex, normal)},
         {"tangent", 4, offsetof(head::Vertex, tangent)},
         {"uv", 2, offsetof(head::Vertex, uv)},
         {"occlusion", 1, offsetof(head::Vertex, occlusion)},
         {"curvature", 2, offsetof(head::Vertex, curvature)},
+        {"thinness", 1, offsetof(head::Vertex, thinness)},
     }};
     static constexpr graph::VertexLayout layout{sizeof(head::Vertex), attributes};
     return {device, layout, std::as_bytes(vertices), indices, name};

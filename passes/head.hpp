@@ -24,15 +24,23 @@ struct WoundReach
     bool operator==(const WoundReach&) const = default;
 };
 
-/// Bit k: wound k, of at most 32, can show on the triangle.
-std::uint32_t wounds_on(const head::Model& model, std::size_t first, std::span<const WoundReach> wounds);
+/// Wounds by their places in with_wounds(), ascending.
+using WoundSet = std::vector<std::uint32_t>;
+
+/// Of more than shared::WOUNDS_HERE wounds those whose middles are nearest to the point, in half widths of
+/// their patches: so many can be drawn in one place.
+WoundSet drawn_near(WoundSet wounds, const glm::dvec3& point, std::span<const WoundReach> reaches);
+
+/// The wounds that can show on the triangle, of those that may be too many drawn_near() its middle. first: of
+/// the triangle's indices.
+WoundSet wounds_on(const head::Model& model, std::size_t first, std::span<const WoundReach> wounds);
 
 struct HeadPart
 {
     head::Surface surface = head::Surface::Skin;
     std::uint32_t first_index = 0, index_count = 0, material = 0; // material: of the model
     bool blend = false, double_sided = false;
-    std::uint32_t wounds = 0; // bit i: skin on which wound i of with_wounds() can show
+    WoundSet wounds; // of the skin's part: the wounds that can show on it, at most shared::WOUNDS_HERE
     const gpu::Texture *albedo = nullptr, *normal = nullptr,
                        *occlusion = nullptr; // owned by Head::textures; never null after upload_head()
     glm::vec4 albedo_factor{1.0f};
@@ -50,6 +58,7 @@ struct Head
     glm::vec3 min{0.0f}, max{0.0f};             // metres
     std::vector<Bounds> boxes;                  // boxes_around() the model
     std::vector<std::vector<Triangle>> wounded; // by wound: the skin on which it can show
+    std::size_t crowded = 0; // triangles that more than shared::WOUNDS_HERE wounds reach: they show so many
 };
 
 gpu::MeshBuffer upload_mesh(const gpu::Device& device, std::span<const head::Vertex> vertices,

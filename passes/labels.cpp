@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/part_bindings.hpp"
+
 namespace passes {
 
 LabelImages add_labels(graph::Graph& graph, const Head& head, std::span<const ForwardWound> wounds,
@@ -18,24 +20,25 @@ LabelImages add_labels(graph::Graph& graph, const Head& head, std::span<const Fo
     pass.depth(graph.image("label_depth", {width, height, VK_FORMAT_D32_SFLOAT}));
     pass.uniform("View_", view);
     pass.uniform("LabelCamera_", camera);
-    pass.uniform("Wounds_", wound_frames(wounds));
 
     const graph::ImageId blank = graph.import("label blank", *head.white);
     for (const HeadPart& part : head.parts) {
         if (part.blend)
             continue;
         // Every sampler of the shader must be bound; unused ones get the white texel.
-        std::vector<graph::ImageId> state(shared::MAX_WOUNDS, blank), relief = state;
-        for (std::size_t i = 0; part.wounds != 0 && i < wounds.size(); ++i) {
-            state[i] = wounds[i].texture.state;
-            relief[i] = wounds[i].texture.relief;
+        std::vector<graph::ImageId> state(shared::WOUNDS_HERE, blank), relief = state;
+        const std::vector<ForwardWound> showing = of_set(part.wounds, wounds);
+        for (std::size_t i = 0; i < showing.size(); ++i) {
+            state[i] = showing[i].texture.state;
+            relief[i] = showing[i].texture.relief;
         }
         graph::Draw& draw = pass.draw("labels");
         draw.mesh = head.mesh.get();
         draw.first_index = part.first_index;
         draw.index_count = part.index_count;
         draw.cull_back_faces = !part.double_sided;
-        draw.constant("WOUNDS", part.wounds != 0 ? std::uint32_t(wounds.size()) : 0u);
+        draw.constant("WOUNDS", std::uint32_t(showing.size()));
+        draw.uniform("Wounds_", wound_frames(showing));
         draw.constant("SURFACE",
                       part.surface == head::Surface::Skin ? shared::LABEL_SKIN : shared::LABEL_OTHER);
         draw.sample("wound_state", state);

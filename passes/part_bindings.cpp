@@ -1,5 +1,6 @@
 #include "passes/part_bindings.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "wound/optics/specular.hpp"
@@ -10,7 +11,7 @@ namespace {
 /// Binds every wound sampler of the shader; unused ones get the head's white texel.
 void bind_wounds(graph::Draw& draw, std::span<const ForwardWound> wounds, graph::ImageId blank)
 {
-    std::vector<graph::ImageId> color(shared::MAX_WOUNDS, blank), state = color, relief = color, lut = color;
+    std::vector<graph::ImageId> color(shared::WOUNDS_HERE, blank), state = color, relief = color, lut = color;
     for (std::size_t i = 0; i < wounds.size(); ++i) {
         color[i] = wounds[i].texture.color;
         state[i] = wounds[i].texture.state;
@@ -42,7 +43,7 @@ shared::Part part_params(const HeadPart& part, optics::Shading shading)
 }
 
 void bind_part(graph::Graph& graph, graph::Draw& draw, const Head& head, const HeadPart& part,
-               std::uint32_t set, std::span<const ForwardWound> wounds, bool occlusion)
+               const WoundSet& set, std::span<const ForwardWound> wounds)
 {
     const auto map = [&](const char* name, const char* image, const gpu::Texture& texture) {
         draw.sample(name, graph.import(fmt::format("{} {}", image, part.material), texture),
@@ -50,15 +51,18 @@ void bind_part(graph::Graph& graph, graph::Draw& draw, const Head& head, const H
     };
     map("albedo_map", "albedo", *part.albedo);
     map("normal_map", "normal", *part.normal);
-    if (occlusion) {
-        map("occlusion_map", "occlusion", *part.occlusion);
-        draw.constant("OCCLUSION_MAP", part.occlusion != head.white);
-    }
-    std::vector<ForwardWound> showing;
+    map("occlusion_map", "occlusion", *part.occlusion);
+    draw.constant("OCCLUSION_MAP", part.occlusion != head.white);
+    bind_wounds(draw, of_set(set, wounds), graph.import("white", *head.white));
+}
+
+std::vector<ForwardWound> of_set(const WoundSet& set, std::span<const ForwardWound> wounds)
+{
+    std::vector<ForwardWound> found;
     for (const ForwardWound& wound : wounds)
-        if ((set >> wound.index & 1) != 0)
-            showing.push_back(wound);
-    bind_wounds(draw, showing, graph.import("white", *head.white));
+        if (std::ranges::binary_search(set, wound.index))
+            found.push_back(wound);
+    return found;
 }
 
 } // namespace passes

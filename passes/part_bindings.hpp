@@ -1,6 +1,7 @@
 // What every pass that computes a point of the head (shaders/lib/skin_inputs.glsl) binds.
 #pragma once
 #include <span>
+#include <vector>
 
 #include "engine/graph/graph.hpp"
 #include "passes/forward.hpp"
@@ -12,6 +13,9 @@ shared::Part part_params(const HeadPart& part, optics::Shading shading);
 
 /// Albedo, normal and occlusion of the part and those of `wounds` that are in `set` (HeadPart::wounds).
 void bind_part(graph::Graph& graph, graph::Draw& draw, const Head& head, const HeadPart& part,
-               std::uint32_t set, std::span<const ForwardWound> wounds, bool occlusion = true);
+               const WoundSet& set, std::span<const ForwardWound> wounds);
+
+/// Those of `wounds` that are in `set`.
+std::vector<ForwardWound> of_set(const WoundSet& set, std::span<const ForwardWound> wounds);
 
 } // namespace passes

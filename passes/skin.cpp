@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <opencv2/imgproc.hpp>
+#include <set>
 #include <unordered_map>
 
 namespace passes {
@@ -28,13 +29,14 @@ struct SkinVertex
     glm::vec2 outward{0.0f}; // of a skirt
 };
 
-constexpr std::array<graph::VertexAttribute, 8> attributes{{
+constexpr std::array<graph::VertexAttribute, 9> attributes{{
     {"position", 3, offsetof(SkinVertex, vertex.position)},
     {"normal", 3, offsetof(SkinVertex, vertex.normal)},
     {"tangent", 4, offsetof(SkinVertex, vertex.tangent)},
     {"uv", 2, offsetof(SkinVertex, vertex.uv)},
     {"occlusion", 1, offsetof(SkinVertex, vertex.occlusion)},
     {"curvature", 2, offsetof(SkinVertex, vertex.curvature)},
+    {"thinness", 1, offsetof(SkinVertex, vertex.thinness)},
     {"place", 2, offsetof(SkinVertex, place)},
     {"outward", 2, offsetof(SkinVertex, outward)},
 }};
@@ -92,35 +94,50 @@ class Spreading
     {
         std::vector<head::AtlasTriangle> whole, rest;
         for (const head::AtlasTriangle& triangle : tile.home)
-            (wounds_on(model_, triangle.first, wounds_) != 0 ? rest : whole).push_back(triangle);
+            (wounds_on(model_, triangle.first, wounds_).empty() ? whole : rest).push_back(triangle);
         const std::vector<Group> home = groups(tile.home, false);
         append(groups(tile.margin, false), tile, skin.spread);
         append(skirts(home), tile, skin.spread);
         append(home, tile, skin.spread);
-        append(groups(whole, false), tile, skin.shown);
+        show(groups(whole, false), tile);
         append(groups(rest, true), tile, skin.rest);
     }
 
     /// A tile around a wound.
-    void add_wound(const head::AtlasTile& tile)
+    void add_wound(const head::AtlasTile& tile, const head::Anchor& anchor)
     {
         if (tile.home.empty())
             return;
         const std::vector<Group> home = groups(tile.home, true);
         std::vector<Group> margin = groups(tile.margin, false); // one for each material: their order matters
+        std::set<std::uint32_t> all;
+        for (const Group& group : home)
+            all.insert(group.wounds.begin(), group.wounds.end());
+        const WoundSet wounds = drawn_near({all.begin(), all.end()}, anchor.centre, wounds_);
         for (Group& group : margin)
-            for (const Group& other : home)
-                group.wounds |= other.wounds;
+            group.wounds = wounds;
         append(margin, tile, skin.spread);
         append(skirts(home), tile,
                skin.spread); // over the margin, which beyond an outline is skin far behind
         append(home, tile, skin.spread);
-        append(home, tile, skin.shown);
+        show(home, tile);
+    }
+
+    /// After all tiles: the camera's draws, few however many wounds there are.
+    void finish()
+    {
+        for (const auto& [key, drawn] : shown_) {
+            skin.shown.push_back(
+                {std::uint32_t(indices.size()), std::uint32_t(drawn.size()), key.second, key.first});
+            indices.insert(indices.end(), drawn.begin(), drawn.end());
+        }
+        skin.lit.insert(skin.lit.end(), skin.rest.begin(), skin.rest.end());
     }
 
     struct Group
     {
-        std::uint32_t material = 0, wounds = 0; // HeadPart::wounds
+        std::uint32_t material = 0;
+        WoundSet wounds; // HeadPart::wounds
         std::vector<std::uint32_t> indices;
     };
 
@@ -129,7 +146,7 @@ class Spreading
     std::vector<std::uint32_t> indices;
 
   private:
-    static Group& group_of(std::vector<Group>& groups, std::uint32_t material, std::uint32_t wounds)
+    static Group& group_of(std::vector<Group>& groups, std::uint32_t material, const WoundSet& wounds)
     {
         const auto known = std::ranges::find_if(
             groups, [&](const Group& group) { return group.material == material && group.wounds == wounds; });
@@ -141,7 +158,7 @@ class Spreading
         std::vector<Group> result;
         for (const head::AtlasTriangle& triangle : triangles) {
             Group& group = group_of(result, material_[triangle.first / 3],
-                                    with_wounds ? wounds_on(model_, triangle.first, wounds_) : 0);
+                                    with_wounds ? wounds_on(model_, triangle.first, wounds_) : WoundSet());
             for (std::uint32_t k = 0; k < 3; ++k)
                 group.indices.push_back(
                     vertex(model_.indices[triangle.first + k], triangle.at[k], group.material));
@@ -217,6 +234,15 @@ class Spreading
         return result;
     }
 
+    void show(std::span<const Group> groups, const head::AtlasTile& tile)
+    {
+        append(groups, tile, skin.lit);
+        for (const Group& group : groups) {
+            std::vector<std::uint32_t>& all = shown_[{!group.wounds.empty(), group.material}];
+            all.insert(all.end(), group.indices.begin(), group.indices.end());
+        }
+    }
+
     void append(std::span<const Group> groups, const head::AtlasTile& tile, std::vector<SkinDraw>& draws)
     {
         for (const Group& group : groups) {
@@ -234,7 +260,8 @@ class Spreading
     std::vector<cv::Mat1b> occlusion_;    // by material
     std::vector<std::uint32_t> material_; // by triangle of the model
     std::unordered_map<std::uint32_t, std::vector<std::pair<std::uint64_t, std::uint32_t>>>
-        known_; // by vertex of the model
+        known_;                                                                  // by vertex of the model
+    std::map<std::pair<bool, std::uint32_t>, std::vector<std::uint32_t>> shown_; // by wounded and material
 };
 
 } // namespace
@@ -253,8 +280,9 @@ std::shared_ptr<const Skin> upload_skin(const gpu::Device& device, const head::M
     Spreading spreading(model, atlas, wounds);
     for (const head::AtlasTile& tile : atlas.materials)
         spreading.add_base(tile);
-    for (const head::AtlasTile& tile : atlas.wounds)
-        spreading.add_wound(tile);
+    for (std::size_t i = 0; i < atlas.wounds.size(); ++i)
+        spreading.add_wound(atlas.wounds[i], wounds[i].anchor);
+    spreading.finish();
     if (spreading.indices.empty())
         return nullptr;
     Skin& skin = spreading.skin;

@@ -15,21 +15,31 @@
 
 namespace passes {
 
+/// A piece of the skin in a tile of the atlas.
 struct SkinDraw
 {
     std::uint32_t first_index = 0, index_count = 0;
     std::uint32_t material = 0;    // of the model
-    std::uint32_t wounds = 0;      // HeadPart::wounds
+    WoundSet wounds;               // HeadPart::wounds
     glm::uvec2 corner{0}, size{0}; // units, of the tile
+};
+
+/// All of a material, or what of it wounds can show on.
+struct SkinShown
+{
+    std::uint32_t first_index = 0, index_count = 0;
+    std::uint32_t material = 0; // of the model
+    bool wounded = false;
 };
 
 struct Skin
 {
     std::shared_ptr<const gpu::MeshBuffer> mesh;
     std::vector<SkinDraw> spread; // onto the atlas, in this order
-    std::vector<SkinDraw> shown;  // to a camera
-    /// Wounded skin that has no place in a wound's tile, with its place in a material's, where the light is
-    /// that of unhurt skin: its light is computed in every pixel.
+    std::vector<SkinShown> shown; // to a camera, with the light that is kept on it
+    std::vector<SkinDraw> lit;    // the same, where light is computed in every pixel
+    /// Of `lit`, what is not shown: wounded skin that has no place in a wound's tile. Its place is in a
+    /// material's, where the light is that of unhurt skin.
     std::vector<SkinDraw> rest;
     std::shared_ptr<const gpu::MeshBuffer> surface_mesh; // of head::SurfaceVertex
     std::vector<head::SurfacePiece> surface;             // in the order in which they are to be drawn

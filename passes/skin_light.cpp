@@ -1,8 +1,8 @@
 #include "passes/skin_light.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "passes/diffusion.hpp"
@@ -58,7 +58,6 @@ SkinLight add_light(graph::Graph& graph, const ForwardInput& input, const Skin& 
     const bool spreads = code && input.around;
     const optics::Transport transport =
         spreads || !code ? optics::Transport::Diffused : shading.pointwise_transport();
-    assert(input.wounds.size() <= shared::MAX_WOUNDS);
     const glm::uvec2 size(glm::dvec2(skin.size) * scale);
     const graph::ImageDesc desc{size.x, size.y, VK_FORMAT_R8G8B8A8_UNORM};
     // Eight bits of reflectance and light would differ by .45 instead of .23 CIEDE2000 from what every pixel
@@ -111,15 +110,15 @@ SkinLight add_light(graph::Graph& graph, const ForwardInput& input, const Skin& 
         bind_part(graph, draw, input.head, part, piece.wounds, input.wounds);
         spread(lit, skin, piece, "light_map", where);
     }
-    std::uint32_t shown = 0;
+    std::set<std::uint32_t> shown;
     for (const SkinDraw& piece : skin.spread)
-        shown |= piece.wounds;
+        shown.insert(piece.wounds.begin(), piece.wounds.end());
     for (const ForwardWound& wound : input.wounds)
-        if ((shown >> wound.index & 1) != 0)
+        if (shown.contains(wound.index))
             for (const graph::ImageId image :
                  {wound.texture.color, wound.texture.state, wound.texture.relief})
                 map.confine(image, kept.wounded);
-    if (shown != 0)
+    if (!shown.empty())
         map.confine("Wounds_", kept.wounded);
     for (const graph::ImageId image : {albedo, normal, kept.gloss})
         lit.in_place(image);

@@ -31,8 +31,8 @@ struct SkinLight
 /// is equal in all directions, and no light but the first two casts a shadow.
 bool can_keep_light(const optics::Shading& shading, const Shadows& shadows);
 
-/// `input.wounds`: all of the head's, seen or not, at most shared::MAX_WOUNDS. `scale`: of the atlas, a power
-/// of two. With input.around the light has spread.
+/// `input.wounds`: all of the head's, seen or not. `scale`: of the atlas, a power of two. With input.around
+/// the light has spread.
 SkinLight add_skin_light(graph::Graph& graph, const ForwardInput& input, const Skin& skin, double scale,
                          const optics::Shading& shading, float exposure_stops);
 

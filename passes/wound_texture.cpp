@@ -23,8 +23,16 @@ WoundMaps upload_wound(const gpu::Device& device, const wound::Patch& patch)
     return maps;
 }
 
+PackedWarps pack_warps(const wound::WoundDay& today)
+{
+    std::vector<shared::vec2> values;
+    const shared::WarpHeader border = wound::pack(today.border_warp, values),
+                             bed = wound::pack(today.bed_warp, values);
+    return {border, bed, graph::Bytes::of(values)};
+}
+
 WoundTexture add_wound_texture(graph::Graph& graph, const std::string& suffix, const WoundMaps& maps,
-                               const wound::WoundDay& today)
+                               const wound::WoundDay& today, const PackedWarps& warps)
 {
     const auto width = std::uint32_t(maps.region.width), height = std::uint32_t(maps.region.height);
     const graph::ImageDesc desc{width, height, VK_FORMAT_R16G16B16A16_SFLOAT};
@@ -34,10 +42,9 @@ WoundTexture add_wound_texture(graph::Graph& graph, const std::string& suffix, c
         graph.image("wound_relief" + suffix, desc), shared::vec2(0.5 * maps.size / extent),
         shared::vec2((0.5 * maps.size - begin) / extent)};
 
-    std::vector<shared::vec2> values;
     shared::WoundToday params{};
-    params.border = wound::pack(today.border_warp, values);
-    params.bed = wound::pack(today.bed_warp, values);
+    params.border = warps.border;
+    params.bed = warps.bed;
     params.first_texel = {maps.region.x, maps.region.y};
     params.border_softness = float(today.border_softness);
     params.bed_presence = float(today.bed_presence);
@@ -55,7 +62,7 @@ WoundTexture add_wound_texture(graph::Graph& graph, const std::string& suffix, c
     warp.store("color", texture.color);
     warp.store("state", texture.state);
     warp.uniform("Today_", params);
-    warp.buffer<shared::vec2>("WarpValues_", values);
+    warp.buffer("WarpValues_", warps.values);
     warp.dispatch(width, height);
 
     graph::ComputePass& relief = graph.compute("wound_relief" + suffix, "wound_relief.comp");

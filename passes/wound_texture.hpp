@@ -7,7 +7,7 @@
 #include "engine/gpu/device.hpp"
 #include "engine/gpu/texture.hpp"
 #include "engine/graph/graph.hpp"
-#include "shaders/shared/glsl.h"
+#include "shaders/shared/warp.h"
 #include "wound/wound.hpp"
 
 namespace passes {
@@ -36,9 +36,18 @@ struct WoundTexture
     shared::vec2 uv_scale{.5}, uv_offset{.5}; // uv of the images = scale * patch coordinates + offset
 };
 
-/// The images have the size of maps.region, which must be the same on all days. `suffix` makes the names of
-/// passes and images unique among the wounds of a scene: "" for the first, " 2" for the second.
+/// The day's warps as the shader reads them: large, so pack them once a day.
+struct PackedWarps
+{
+    shared::WarpHeader border, bed;
+    graph::Bytes values;
+};
+PackedWarps pack_warps(const wound::WoundDay& today);
+
+/// `warps`: pack_warps(today). The images have the size of maps.region, which must be the same on all days.
+/// `suffix` makes the names of passes and images unique among the wounds of a scene: "" for the first, " 2"
+/// for the second.
 WoundTexture add_wound_texture(graph::Graph& graph, const std::string& suffix, const WoundMaps& maps,
-                               const wound::WoundDay& today);
+                               const wound::WoundDay& today, const PackedWarps& warps);
 
 } // namespace passes

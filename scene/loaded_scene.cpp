@@ -88,7 +88,7 @@ void place_wounds(LoadedScene& loaded, WoundLoader& loader, const LoadedScene& b
     for (std::size_t i = 0; i < loaded.shown.size(); ++i) {
         const Wound& wound = loaded.shown[i];
         const std::string name = name_of(wound, i);
-        auto photograph = loader.fitted(wound, loaded.head, name, !dragging);
+        auto photograph = loader.fitted(wanted(loaded.shown, i), loaded.head, !dragging);
         const bool exact = photograph != nullptr;
         if (!exact) {
             loaded.complete = false;
@@ -207,11 +207,11 @@ std::shared_ptr<const LoadedHead> begin_loading(WoundLoader& loader, const Scene
 {
     check(scene);
     for (std::size_t i = 0; i < scene.wounds.size(); ++i)
-        loader.begin(scene.wounds[i], name_of(scene.wounds[i], i));
+        loader.begin(wanted(scene.wounds, i));
     std::shared_ptr<const LoadedHead> head = load_head(scene.head);
     loader.put(head);
     for (std::size_t i = 0; i < scene.wounds.size(); ++i)
-        loader.fitted(scene.wounds[i], head, name_of(scene.wounds[i], i));
+        loader.fitted(wanted(scene.wounds, i), head);
     return head;
 }
 

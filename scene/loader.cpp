@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
+#include <ranges>
 #include <thread>
 #include <utility>
 
@@ -31,8 +33,8 @@ struct WoundLoader::Prepared
 
 namespace {
 
-constexpr std::size_t most_prepared = 8, most_fitted = 32; // some 6 MB each
-constexpr std::size_t most_jobs = 8, most_jobs_of_a_photograph = 2;
+constexpr std::size_t most_prepared = 8, most_unused = 32; // some 6 MB each
+constexpr std::ptrdiff_t most_jobs = 8, most_jobs_of_a_photograph = 2;
 
 std::uint64_t key_of(const Wound& wound, Affects affects)
 {
@@ -41,11 +43,16 @@ std::uint64_t key_of(const Wound& wound, Affects affects)
     return hash.value();
 }
 
-std::uint64_t fitted_key(const Wound& wound, const LoadedHead& head)
+std::uint64_t prepared_key(const WantedWound& wanted)
+{
+    return base::Hash().add(key_of(wanted.wound, Affects::Preparation)).add(wanted.of_many).value();
+}
+
+std::uint64_t fitted_key(const WantedWound& wanted, const LoadedHead& head)
 {
     base::Hash hash;
-    hash_fields(hash, wound, Affects::Fit);
-    return hash.add(head.key).value();
+    hash_fields(hash, wanted.wound, Affects::Fit);
+    return hash.add(head.key).add(wanted.of_many).value();
 }
 
 std::filesystem::path head_file(const std::filesystem::path& file)
@@ -61,7 +68,8 @@ wound::TissueThickness scaled_tissue(const Wound& wound, const head::FacePoint& 
             tissue.subcutis * wound.depth_factor};
 }
 
-std::shared_ptr<const WoundLoader::Prepared> make_prepared(const Wound& wound, const std::string& name)
+std::shared_ptr<const WoundLoader::Prepared> make_prepared(const Wound& wound, const std::string& name,
+                                                           bool of_many)
 {
     auto made = std::make_shared<WoundLoader::Prepared>();
     made->tissue = scaled_tissue(wound, head::known_face_point(wound.place).value_or(head::FacePoint{}));
@@ -76,6 +84,8 @@ std::shared_ptr<const WoundLoader::Prepared> make_prepared(const Wound& wound, c
     std::vector<std::future<wound::PreparedWound>> prepared;
     for (const wound::WoundPart& part : made->parts) {
         preparation.width_mm = part.width_mm;
+        if (of_many || made->parts.size() > shared::WOUNDS_HERE)
+            preparation.patch_size = wound::shared_patch_size(part.width_mm);
         prepared.push_back(
             std::async(std::launch::async, wound::prepare, std::cref(part.photograph), preparation));
     }
@@ -133,8 +143,8 @@ bool failed(const std::shared_future<T>& future)
     }
 }
 
-template <typename T>
-bool ready(const std::future<T>& future)
+template <typename Future>
+bool ready(const Future& future)
 {
     return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
@@ -153,6 +163,11 @@ wound::Photograph read_photograph(const Wound& wound)
     if (!wound.mask.empty())
         photograph.mask = base::read_mask(wound.mask);
     return photograph;
+}
+
+WantedWound wanted(const std::vector<Wound>& wounds, std::size_t index)
+{
+    return {wounds[index], name_of(wounds[index], index), wounds.size() > shared::WOUNDS_HERE};
 }
 
 void check_count(std::size_t all, std::size_t components, const std::string& name)
@@ -202,13 +217,11 @@ std::shared_ptr<const LoadedHead> load_head(const std::filesystem::path& chosen)
     head->face = head::find_face(*model);
     head->skin = head::skin_material(*model);
     head->bvh = std::make_shared<const head::Bvh>(*model);
-    if (!head::has_occlusion_map(*model)) {
-        const std::string problem =
-            head::bake_occlusion(*model, *head->bvh, base::cache_folder() / "occlusion");
+    const std::string problem = head::bake_occlusion(*model, *head->bvh, base::cache_folder() / "occlusion");
+    if (!head::has_occlusion_map(*model))
         head->notes.push_back(fmt::format("{}: no occlusion map: computed from the shape", file.string()));
-        if (!problem.empty())
-            head->notes.push_back(problem);
-    }
+    if (!problem.empty())
+        head->notes.push_back(problem);
     head->model = std::move(model);
     return head;
 }
@@ -231,24 +244,35 @@ std::shared_ptr<const LoadedHead> WoundLoader::head(const std::filesystem::path&
     return nullptr;
 }
 
-WoundLoader::SharedPrepared WoundLoader::prepared(const Wound& wound, const std::string& name)
+WoundLoader::SharedPrepared WoundLoader::prepared(const WantedWound& wanted)
 {
-    const Key key = key_of(wound, Affects::Preparation);
+    const Key key = prepared_key(wanted);
     const auto found = std::ranges::find(prepared_, key, &std::pair<Key, SharedPrepared>::first);
     if (found != prepared_.end())
         prepared_.splice(prepared_.begin(), prepared_, found);
     else
-        prepared_.emplace_front(key, std::async(std::launch::async, make_prepared, wound, name));
-    if (prepared_.size() > most_prepared)
-        prepared_.pop_back();
-    return prepared_.front().second;
+        prepared_.emplace_front(
+            key, std::async(std::launch::async, make_prepared, wanted.wound, wanted.name, wanted.of_many));
+    const SharedPrepared made = prepared_.front().second;
+    // The least recently used; to drop one that is not ready would wait for it.
+    const auto oldest = std::ranges::find_if(prepared_ | std::views::reverse,
+                                             [](const auto& one) { return ready(one.second); });
+    if (prepared_.size() > most_prepared && oldest != prepared_.rend())
+        prepared_.erase(std::next(oldest).base());
+    return made;
 }
 
-std::shared_ptr<const FittedPhotograph> WoundLoader::fitted(const Wound& wound,
-                                                            std::shared_ptr<const LoadedHead> head,
-                                                            const std::string& name, bool begin)
+void WoundLoader::begin(const WantedWound& wanted)
 {
-    const Key key = fitted_key(wound, *head);
+    if (std::ranges::count_if(prepared_, [](const auto& one) { return !ready(one.second); }) < most_jobs)
+        prepared(wanted);
+}
+
+std::shared_ptr<const FittedPhotograph>
+WoundLoader::fitted(const WantedWound& wanted, std::shared_ptr<const LoadedHead> head, bool begin)
+{
+    const Wound& wound = wanted.wound;
+    const Key key = fitted_key(wanted, *head);
     if (const auto found = std::ranges::find(fitted_, key, &Entry::key); found != fitted_.end()) {
         if (found->failed) {
             const std::exception_ptr failed = found->failed;
@@ -259,13 +283,14 @@ std::shared_ptr<const FittedPhotograph> WoundLoader::fitted(const Wound& wound,
         return found->fitted;
     }
     const Key photograph = key_of(wound, Affects::Photograph);
-    const bool room =
-        begin && jobs_.size() < most_jobs &&
-        std::size_t(std::ranges::count(jobs_, photograph, &Job::photograph)) < most_jobs_of_a_photograph;
+    const bool room = begin && std::ssize(jobs_) < most_jobs &&
+                      std::ranges::count(jobs_, photograph, &Job::photograph) < most_jobs_of_a_photograph;
     if (room && std::ranges::find(jobs_, key, &Job::key) == jobs_.end())
-        jobs_.push_back({key, photograph, std::async(std::launch::async, [=, made = prepared(wound, name)] {
-                             return make_fitted(wound, *made.get(), *head, name);
-                         })});
+        jobs_.push_back({key, photograph,
+                         std::async(std::launch::async,
+                                    [=, made = prepared(wanted), wound = Wound(wound), name = wanted.name] {
+                                        return make_fitted(wound, *made.get(), *head, name);
+                                    })});
     return nullptr;
 }
 
@@ -321,8 +346,10 @@ bool WoundLoader::collect()
         fitted_.push_front(std::move(entry));
         job = jobs_.erase(job);
     }
-    while (fitted_.size() > most_fitted)
-        fitted_.pop_back();
+    // Those of a scene are kept, however many it has.
+    std::size_t unused = 0;
+    std::erase_if(
+        fitted_, [&](const Entry& entry) { return entry.fitted.use_count() <= 1 && ++unused > most_unused; });
     news_ += any;
     return any;
 }

@@ -66,6 +66,18 @@ std::vector<head::Anchor> anchors_of(const Wound& wound, const FittedPhotograph&
 /// so far, of which `components` belong to this photograph.
 void check_count(std::size_t all, std::size_t components, const std::string& name);
 
+/// A wound whose photograph is to be prepared and fitted.
+struct WantedWound
+{
+    const Wound& wound;
+    std::string name; // for error messages
+    /// The scene, or this photograph, has more wounds than one place can show (shared::WOUNDS_HERE): their
+    /// maps are no larger than wound::shared_patch_size().
+    bool of_many = false;
+};
+/// The `index`-th of a scene's wounds.
+WantedWound wanted(const std::vector<Wound>& wounds, std::size_t index);
+
 /// Use from one thread at a time; it owns its worker threads. The destructor waits for them.
 class WoundLoader
 {
@@ -79,10 +91,10 @@ class WoundLoader
     /// The wound's photograph fitted to the head, or null if it is not ready. `begin`: start work on it if
     /// the number of jobs allows; call again after collect() has returned true. Throws the work's exception
     /// once.
-    std::shared_ptr<const FittedPhotograph> fitted(const Wound& wound, std::shared_ptr<const LoadedHead> head,
-                                                   const std::string& name, bool begin = true);
-    /// Starts preparing the wound's photograph, which needs no head.
-    void begin(const Wound& wound, const std::string& name) { prepared(wound, name); }
+    std::shared_ptr<const FittedPhotograph> fitted(const WantedWound& wanted,
+                                                   std::shared_ptr<const LoadedHead> head, bool begin = true);
+    /// Starts preparing the wound's photograph, which needs no head, if the number of jobs allows.
+    void begin(const WantedWound& wanted);
 
     /// The cached fit of the same photograph that is nearest in place and size; null if there is none.
     std::shared_ptr<const FittedPhotograph> similar(const Wound& wound, const head::FaceFrame& face) const;
@@ -111,7 +123,7 @@ class WoundLoader
         std::shared_ptr<const FittedPhotograph> fitted; // null: failed
         std::exception_ptr failed;                      // thrown by the next fitted()
     };
-    SharedPrepared prepared(const Wound& wound, const std::string& name);
+    SharedPrepared prepared(const WantedWound& wanted);
 
     std::list<std::pair<Key, SharedPrepared>> prepared_; // most recently used first
     std::list<Entry> fitted_;                            // most recently used first

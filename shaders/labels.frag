@@ -1,13 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 // Labels of a pixel for training or testing measuring programs: kind of surface, number and depth of the
 // wound, distance, and the area of the wound's surface in the pixel. See passes/labels.hpp.
 #include "lib/frame.glsl"
 #include "lib/wound_projection.glsl"
 #include "shared/labels.h"
 
-layout(constant_id = 0) const uint WOUNDS = 0; // number of projected wounds
+layout(constant_id = 0) const uint WOUNDS = 0; // number of projected wounds, at most WOUNDS_HERE
 layout(constant_id = 1) const uint SURFACE = LABEL_SKIN;
 
 layout(location = 0) in vec3 v_position;
@@ -16,9 +17,9 @@ layout(location = 0) out vec2 out_kind;     // LABEL_..., number of the wound fr
 layout(location = 1) out vec4 out_measures; // depth, distance in mm; mm2 of open bed, mm2 inside border
 
 layout(scalar, binding = 1) uniform LabelCamera_ { LabelCamera camera; };
-layout(scalar, binding = 2) uniform Wounds_ { WoundFrame wounds[MAX_WOUNDS]; };
-layout(binding = 3) uniform sampler2D wound_state[MAX_WOUNDS];
-layout(binding = 4) uniform sampler2D wound_relief[MAX_WOUNDS];
+layout(scalar, binding = 2) uniform Wounds_ { WoundFrame wounds[WOUNDS_HERE]; };
+layout(binding = 3) uniform sampler2D wound_state[WOUNDS_HERE];
+layout(binding = 4) uniform sampler2D wound_relief[WOUNDS_HERE];
 
 struct Seen
 {
@@ -29,7 +30,7 @@ struct Seen
 
 // Of overlapping wounds chooses the one that covers more; at equal coverage the later one, which is drawn on
 // top.
-void see_wound(uint number, WoundFrame w, sampler2D state_map, sampler2D relief_map, vec3 geometric, inout Seen seen)
+void see_wound(WoundFrame w, sampler2D state_map, sampler2D relief_map, vec3 geometric, inout Seen seen)
 {
     const WoundPlace place = project_wound(w, v_position, geometric);
     if (place.facing <= 0)
@@ -37,18 +38,16 @@ void see_wound(uint number, WoundFrame w, sampler2D state_map, sampler2D relief_
     const vec4 state = textureLod(state_map, place.uv, 0);
     const float bed = state.b * place.facing, inside = max(state.a, state.b) * place.facing;
     if (inside > 0 && inside >= seen.inside)
-        seen = Seen(number, bed, inside, textureLod(relief_map, place.uv, 0).a);
+        seen = Seen(w.number, bed, inside, textureLod(relief_map, place.uv, 0).a);
 }
-
-#define SEE_WOUND(i)                                                                                                           \
-    if (WOUNDS > i)                                                                                                            \
-        see_wound(i + 1, wounds[i], wound_state[i], wound_relief[i], geometric, seen);
 
 void main()
 {
     const vec3 geometric = normalize_or(gl_FrontFacing ? v_normal : -v_normal, vec3(0, 0, 1));
     Seen seen = Seen(0, 0, 0, 0);
-    SEE_WOUND(0) SEE_WOUND(1) SEE_WOUND(2) SEE_WOUND(3) SEE_WOUND(4) SEE_WOUND(5) SEE_WOUND(6)
+    [[unroll]] for (uint i = 0; i < WOUNDS_HERE; ++i)
+        if (i < WOUNDS)
+            see_wound(wounds[i], wound_state[i], wound_relief[i], geometric, seen);
     const uint kind = seen.bed >= 0.5 ? LABEL_OPEN_BED : seen.inside >= 0.5 ? LABEL_NEW_EPITHELIUM : SURFACE;
     out_kind = vec2(kind, seen.wound) / 255;
 

@@ -36,7 +36,8 @@ void main()
     const float open = albedo.a;
 
     const DiffuseSkin body = diffuse_skin(TRANSPORT, shading.rho_d * skin.albedo, shading.scattering, v_curvature);
-    vec3 diffuse = shading.ambient * surroundings_seen(open * skin.occlusion, body.albedo) * skin.albedo * body.gain;
+    const vec3 seen = surroundings_seen(open * skin.occlusion, body.albedo);
+    vec3 diffuse = shading.ambient * surroundings_left(TRANSPORT, body, seen, v_thinness) * skin.albedo;
     vec3 bounced = vec3(0);
     vec2 visible = vec2(1);
     for (uint i = 0; i < LIGHTS; ++i)

@@ -18,18 +18,21 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 curvature; // 1/m, mean and root mean square
 layout(location = 3) in vec2 place;
 layout(location = 4) in vec2 outward;
+layout(location = 5) in float thinness; // 1/m
 
 layout(location = 0) out vec3 v_position;
 layout(location = 1) out vec3 v_normal;
 layout(location = 5) out vec4 v_shadow_place[2];
 layout(location = 7) out vec4 v_shadow_slope[2];
 layout(location = 9) out vec2 v_curvature;
+layout(location = 11) out float v_thinness;
 
 void main()
 {
     v_position = position;
     v_normal = normal;
     v_curvature = curvature;
+    v_thinness = thinness;
     for (uint i = 0; i < 2; ++i)
     {
         ShadowLookup lookup = ShadowLookup(vec4(0), vec4(0));

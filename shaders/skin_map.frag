@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 // What the skin is like, without light: reflectance, normal, gloss, with today's wounds.
 #include "lib/on_atlas.glsl"
 #include "lib/skin_code.glsl"

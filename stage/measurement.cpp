@@ -21,7 +21,8 @@ double process_cpu_now_ms()
     return 1e3 * double(now.tv_sec) + 1e-6 * double(now.tv_nsec);
 }
 
-TimedFrame draw(gpu::Executor& executor, const MeasuredCase& drawn, double position, Clock::time_point zero)
+TimedFrame draw(gpu::Executor& executor, const MeasuredCase& drawn, double position, Clock::time_point zero,
+                bool counted)
 {
     if (drawn.every_pass)
         executor.forget();
@@ -34,6 +35,7 @@ TimedFrame draw(gpu::Executor& executor, const MeasuredCase& drawn, double posit
     frame.declare_ms = milliseconds(Clock::now() - start);
     frame.result = executor.run(graph);
     frame.process_cpu_ms = process_cpu_now_ms() - cpu_start_ms;
+    frame.work = work_of(frame.result, counted);
     frame.result.readbacks.clear(); // saves the memory of hundreds of pictures
     frame.result.plan = {};
     drawn.afterwards();
@@ -59,7 +61,8 @@ std::vector<Measurement> measure(const gpu::Device& device, const graph::ShaderL
             zero = Clock::now();
         for (std::size_t i = 0; i < cases.size(); ++i) {
             executors[i]->measure({.align = true, .count = counting});
-            TimedFrame frame = draw(*executors[i], cases[i], double(round) / rounds.all(), zero);
+            TimedFrame frame = draw(*executors[i], cases[i], double(round) / rounds.all(), zero,
+                                    counting && device.info().statistics);
             if (counting)
                 measurements[i].counted.push_back(std::move(frame));
             else if (round >= rounds.warm_up)
@@ -86,6 +89,15 @@ std::vector<double> wall_ms(const Measurement& measurement)
     for (const TimedFrame& frame : measurement.frames)
         times.push_back(frame.wall_ms());
     return times;
+}
+
+FrameWork mean_work(const Measurement& measurement)
+{
+    std::vector<FrameWork> works;
+    for (const auto* frames : {&measurement.counted, &measurement.frames})
+        for (const TimedFrame& frame : *frames)
+            works.push_back(frame.work);
+    return mean(works);
 }
 
 std::vector<double> process_cpu_ms(const Measurement& measurement)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/gpu/executor.hpp"
+#include "stage/work.hpp"
 
 namespace stage {
 
@@ -22,10 +23,11 @@ struct MeasuredCase
 
 struct TimedFrame
 {
-    double start_ms = 0;     // since the first frame of the measurement
-    double declare_ms = 0;   // duration of declare(); the times in `result` start at its end
+    double start_ms = 0;       // since the first frame of the measurement
+    double declare_ms = 0;     // duration of declare(); the times in `result` start at its end
     double process_cpu_ms = 0; // CPU time of all threads of the process, from declare() to the frame's end
-    gpu::FrameResult result; // without plan and read-backs
+    gpu::FrameResult result;   // without plan and read-backs
+    FrameWork work;
     double wall_ms() const { return declare_ms + result.frame_ms; }
 };
 
@@ -52,5 +54,7 @@ std::vector<Measurement> measure(
 std::vector<double> pass_ms(const Measurement& measurement, std::string_view pass);
 std::vector<double> wall_ms(const Measurement& measurement);
 std::vector<double> process_cpu_ms(const Measurement& measurement);
+/// Means over all frames.
+FrameWork mean_work(const Measurement& measurement);
 
 } // namespace stage

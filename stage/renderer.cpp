@@ -17,7 +17,7 @@ json pass_costs(const gpu::FrameResult& frame)
         passes.push_back({{"name", pass.name},
                           {"state", graph::name_of(pass.state)},
                           {"reason", pass.reason},
-                          {"refreshed", pass.refreshed},
+                          {"refreshed", pass.work.refreshed},
                           {"gpu_ms", pass.gpu_ms ? json(*pass.gpu_ms) : json(nullptr)},
                           {"cpu_ms", pass.cpu_ms}});
     return passes;

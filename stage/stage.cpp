@@ -1,6 +1,7 @@
 #include "stage/stage.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
 
 #include "base/input_error.hpp"
@@ -106,10 +107,10 @@ void Stage::prefetch(const scene::Scene& scene) const
     try {
         const auto head = loader_->head(scene.head, set_.loaded.head);
         for (std::size_t i = 0; i < scene.wounds.size(); ++i)
-            if (const std::string name = name_of(scene.wounds[i], i); head)
-                loader_->fitted(scene.wounds[i], head, name);
+            if (head)
+                loader_->fitted(wanted(scene.wounds, i), head);
             else
-                loader_->begin(scene.wounds[i], name);
+                loader_->begin(wanted(scene.wounds, i));
     } catch (const base::InputError&) {
         return; // update() tries again and reports the error
     }
@@ -131,6 +132,10 @@ Stage::Set Stage::make(const scene::Scene& scene) const
                             passes::with_wounds(*device_, *set.bare, model, set.reaches));
     for (const scene::PlacedWound& wound : set.loaded.wounds)
         set.wounds.push_back({maps_of(wound), lut_of(set, wound)});
+    if (set.wounded->crowded > 0)
+        set.loaded.notes.push_back(fmt::format(
+            "scene: /wounds: more than {0} wounds reach the same skin; there the {0} nearest ones are drawn",
+            shared::WOUNDS_HERE));
     return set;
 }
 
@@ -152,7 +157,7 @@ passes::WoundMaps Stage::maps_of(const scene::PlacedWound& wound) const
 }
 
 /// Reuses the table of another wound or of the previous set if tissue, model and healing are the same.
-passes::LutTissue Stage::lut_of(const Set& set, const scene::PlacedWound& wound) const
+Stage::SharedTissue Stage::lut_of(const Set& set, const scene::PlacedWound& wound) const
 {
     for (std::size_t i = 0; i < set.wounds.size(); ++i)
         if (set.loaded.same_tissue(set.loaded.wounds[i], wound))
@@ -166,7 +171,7 @@ passes::LutTissue Stage::lut_of(const Set& set, const scene::PlacedWound& wound)
     return make_lut(set, wound);
 }
 
-passes::LutTissue Stage::make_lut(const Set& set, const scene::PlacedWound& wound) const
+Stage::SharedTissue Stage::make_lut(const Set& set, const scene::PlacedWound& wound) const
 {
     const scene::Scene& scene = set.loaded.scene;
     const wound::LutRows rows =
@@ -177,15 +182,20 @@ passes::LutTissue Stage::make_lut(const Set& set, const scene::PlacedWound& woun
             *device_,
             wound::kept_table(rows, wound::lut_size, scene.reflectance_model, wound::picture_table_options),
             "reflectance table"));
-    return tissue;
+    return std::make_shared<const passes::LutTissue>(std::move(tissue));
 }
 
 void Stage::set_tissue(const optics::HealingTissue& tissue)
 {
     set_.loaded.tissue = tissue;
     scattering_length_mm_.reset();
-    for (std::size_t i = 0; i < set_.wounds.size(); ++i)
-        set_.wounds[i].tissue = make_lut(set_, set_.loaded.wounds[i]);
+    const std::vector<scene::PlacedWound>& placed = set_.loaded.wounds;
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        std::size_t first = 0;
+        while (!set_.loaded.same_tissue(placed[first], placed[i]))
+            ++first;
+        set_.wounds[i].tissue = first < i ? set_.wounds[first].tissue : make_lut(set_, placed[i]);
+    }
 }
 
 const passes::Skin* Stage::skin() const
@@ -218,19 +228,25 @@ base::Color Stage::scattering_length_mm(const optics::Shading& shading) const
     return *scattering_length_mm_;
 }
 
-std::shared_ptr<const std::vector<wound::WoundDay>> Stage::wounds_on(double day) const
+Stage::KnownDay Stage::known_day(double day) const
 {
     const auto known = std::ranges::find(known_days_, day, &KnownDay::day);
-    KnownDay found =
-        known != known_days_.end()
-            ? *known
-            : KnownDay{day, std::make_shared<const std::vector<wound::WoundDay>>(set_.loaded.wounds_on(day))};
-    if (known != known_days_.end())
+    KnownDay found{day, nullptr, nullptr};
+    if (known != known_days_.end()) {
+        found = *known;
         known_days_.erase(known);
+    } else {
+        std::vector<wound::WoundDay> wounds = set_.loaded.wounds_on(day);
+        std::vector<passes::PackedWarps> warps;
+        for (const wound::WoundDay& today : wounds)
+            warps.push_back(passes::pack_warps(today));
+        found.wounds = std::make_shared<const std::vector<wound::WoundDay>>(std::move(wounds));
+        found.warps = std::make_shared<const std::vector<passes::PackedWarps>>(std::move(warps));
+    }
     known_days_.push_front(found);
     if (known_days_.size() > most_known_days)
         known_days_.pop_back();
-    return found.wounds;
+    return found;
 }
 
 shared::View Stage::view(const head::Camera& camera, const passes::ViewportTile& tile) const
@@ -242,11 +258,13 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
 {
     const scene::Scene& scene = set_.loaded.scene;
     const optics::Shading shading = request.shading.value_or(scene.shading);
-    Frame frame{{}, wounds_on(request.day)};
+    const KnownDay today = known_day(request.day);
+    Frame frame{{}, today.wounds};
     std::vector<passes::FrameWound> wounds;
     for (std::size_t i = 0; i < set_.wounds.size(); ++i) {
         const DeviceWound& wound = set_.wounds[i];
-        wounds.push_back({set_.loaded.wounds[i].anchor, wound.maps, wound.tissue, (*frame.wounds)[i]});
+        wounds.push_back(
+            {set_.loaded.wounds[i].anchor, wound.maps, *wound.tissue, (*today.wounds)[i], (*today.warps)[i]});
         graph.keep(wound.maps.color);
         graph.keep(wound.maps.shape);
     }

@@ -95,7 +95,10 @@ class Stage
     void set_tissue(const optics::HealingTissue& tissue);
 
     /// The states of the placed wounds on a day. The last few requested days are cached.
-    std::shared_ptr<const std::vector<wound::WoundDay>> wounds_on(double day) const;
+    std::shared_ptr<const std::vector<wound::WoundDay>> wounds_on(double day) const
+    {
+        return known_day(day).wounds;
+    }
 
     /// The view of a camera for a tile.
     shared::View view(const head::Camera& camera, const passes::ViewportTile& tile) const;
@@ -113,7 +116,7 @@ class Stage
     struct DeviceWound
     {
         passes::WoundMaps maps;
-        passes::LutTissue tissue;
+        std::shared_ptr<const passes::LutTissue> tissue; // shared by the wounds with the same table
     };
     /// A scene's data on the CPU and the device. Cheap to copy: large data is shared and immutable.
     struct Set
@@ -133,12 +136,15 @@ class Stage
     {
         double day = 0;
         std::shared_ptr<const std::vector<wound::WoundDay>> wounds;
+        std::shared_ptr<const std::vector<passes::PackedWarps>> warps; // the same
     };
 
+    KnownDay known_day(double day) const;
     Set make(const scene::Scene& scene) const;
     passes::WoundMaps maps_of(const scene::PlacedWound& wound) const;
-    passes::LutTissue make_lut(const Set& set, const scene::PlacedWound& wound) const;
-    passes::LutTissue lut_of(const Set& set, const scene::PlacedWound& wound) const;
+    using SharedTissue = std::shared_ptr<const passes::LutTissue>;
+    SharedTissue make_lut(const Set& set, const scene::PlacedWound& wound) const;
+    SharedTissue lut_of(const Set& set, const scene::PlacedWound& wound) const;
     void accept(Set set);
     /// The skin with the wounds of set_; null for a head without a usable one.
     const passes::Skin* skin() const;

@@ -172,6 +172,15 @@ void check(const Photograph& photograph, const Preparation& preparation)
 
 } // namespace
 
+int shared_patch_size(double width_mm)
+{
+    constexpr double widest_texel_mm = 30 / wound_share / 512;
+    int size = 512;
+    while (size > 64 && width_mm / wound_share / (size / 2) <= widest_texel_mm)
+        size /= 2;
+    return size;
+}
+
 PreparedWound prepare(const Photograph& photograph, const Preparation& preparation)
 {
     check(photograph, preparation);

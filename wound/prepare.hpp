@@ -12,6 +12,10 @@ namespace wound {
 inline constexpr double wound_share = .45; // the wound's longer side / the patch's side
 inline constexpr double least_width_mm = .5;
 
+/// Texels a side of a patch, by the width of its wound, mm, where many wounds share memory and time: no texel
+/// is wider than the default wound's with 512.
+int shared_patch_size(double width_mm);
+
 struct Preparation
 {
     std::string where = "photograph"; // names the photograph in error messages

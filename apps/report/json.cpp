@@ -110,7 +110,7 @@ class Track
             add(cpu_track, pass.name, zero + pass.cpu_begin_ms, pass.cpu_ms);
             if (pass.gpu_ms)
                 add(gpu_track, pass.name, zero + pass.gpu_begin_ms.value_or(0), *pass.gpu_ms,
-                    {{"reason", pass.reason}, {"bytes_written", pass.bytes_written}});
+                    {{"reason", pass.reason}, {"bytes_written", pass.work.bytes_written}});
         }
         if (result.copy)
             add(gpu_track, "copy out", zero + result.copy->begin_ms, result.copy->ms);
@@ -149,6 +149,7 @@ json report_json(const json& facts, const std::vector<CaseSummary>& summaries,
                                    {"sum_ms", to_json(summary.sum_ms)},
                                    {"envelope_ms", to_json(summary.envelope_ms)},
                                    {"coverage", summary.coverage},
+                                   {"work", stage::to_json(summary.work)},
                                    {"passes", passes},
                                    {"parts", parts},
                                    {"samples", samples_json(summary, measurements[i])}});

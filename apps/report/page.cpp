@@ -105,15 +105,34 @@ std::string pass_table(const CaseSummary& summary)
     return table + "</table>\n";
 }
 
+/// What no clock blurs, a row for each case.
+std::string work_table(const std::vector<CaseSummary>& summaries)
+{
+    std::string table =
+        "<h2>Counted work of a frame</h2>\n<div class=\"scroll\"><table><tr><th>case<th>passes run"
+        "<th>texels refreshed<th>kB written<th>maps sampled<th>vertex<th>fragment<th>compute</tr>\n";
+    for (const CaseSummary& summary : summaries) {
+        const stage::FrameWork& work = summary.work;
+        table += fmt::format("<tr><td>{}</td><td>{:.1f}</td><td>{:.0f}</td><td>{:.0f}</td><td>{:.1f}</td>",
+                             base::escaped(summary.name), work.passes, work.texels, work.bytes_written / 1e3,
+                             work.maps_sampled);
+        table += work.invocations ? fmt::format("<td>{:.0f}</td><td>{:.0f}</td><td>{:.0f}</td></tr>\n",
+                                                work.invocations->vertex, work.invocations->fragment,
+                                                work.invocations->compute)
+                                  : "<td>-</td><td>-</td><td>-</td></tr>\n";
+    }
+    return table + "</table></div>\n";
+}
+
 std::string case_section(const CaseSummary& summary, const stage::Measurement& measurement,
                          const PassColors& colors)
 {
-    std::string text = fmt::format("<h2>{}</h2><p>{}. Frame {:.2f} ms ({:.2f} to {:.2f}), {}; {:.2f} CPU ms "
-                                   "({:.2f} to {:.2f}) of all threads.",
-                                   base::escaped(summary.name), base::escaped(summary.what),
-                                   summary.wall_ms.median, summary.wall_ms.p5, summary.wall_ms.p95,
-                                   rate_text(summary.wall_ms.median), summary.process_cpu_ms.median,
-                                   summary.process_cpu_ms.p5, summary.process_cpu_ms.p95);
+    std::string text =
+        fmt::format("<h2>{}</h2><p>{}. Frame {:.2f} ms ({:.2f} to {:.2f}), {}; {:.2f} CPU ms "
+                    "({:.2f} to {:.2f}) of all threads.",
+                    base::escaped(summary.name), base::escaped(summary.what), summary.wall_ms.median,
+                    summary.wall_ms.p5, summary.wall_ms.p95, rate_text(summary.wall_ms.median),
+                    summary.process_cpu_ms.median, summary.process_cpu_ms.p5, summary.process_cpu_ms.p95);
     if (summary.sum_ms)
         text +=
             fmt::format(" On the GPU the passes take {:.2f} ms in sum, {:.2f} ms from the start of the first "
@@ -168,16 +187,16 @@ std::string report_page(const json& facts, const std::vector<CaseSummary>& summa
                 "bounds.</p>\n";
     page += facts_table(facts);
     page += "<h2>A frame of each case</h2>\n" + stacked_bars(summaries, colors);
+    page += work_table(summaries);
     if (comparison)
         page += comparison_section(*comparison);
     for (std::size_t i = 0; i < summaries.size(); ++i)
         page += case_section(summaries[i], measurements[i], colors);
     return page +
-           fmt::format(
-               "<h2>The scene</h2><details><summary>as JSON</summary><pre>{}</pre></details>\n"
-               "<p class=\"faint\">Shares are GPU and recording time / wall clock from declaring a "
-               "frame to its end. Method: docs/report.md of Cicatrix.</p>\n</body></html>\n",
-               base::escaped(facts.at("scene").dump(2)));
+           fmt::format("<h2>The scene</h2><details><summary>as JSON</summary><pre>{}</pre></details>\n"
+                       "<p class=\"faint\">Shares are GPU and recording time / wall clock from declaring a "
+                       "frame to its end. Method: docs/report.md of Cicatrix.</p>\n</body></html>\n",
+                       base::escaped(facts.at("scene").dump(2)));
 }
 
 } // namespace report_command

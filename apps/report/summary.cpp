@@ -66,8 +66,8 @@ void fill(PassSummary& summary, const stage::Measurement& measurement)
             if (pass.gpu_ms)
                 gpu.push_back(*pass.gpu_ms);
             cpu.push_back(pass.cpu_ms);
-            bytes.push_back(double(pass.bytes_written));
-            refreshed.push_back(pass.refreshed);
+            bytes.push_back(double(pass.work.bytes_written));
+            refreshed.push_back(pass.work.refreshed);
             summary.share +=
                 (pass.gpu_ms.value_or(0) + pass.cpu_ms) / frame.wall_ms() / double(measurement.frames.size());
         }
@@ -158,6 +158,7 @@ CaseSummary summarise(const stage::Measurement& measurement)
     const std::vector<double> walls = stage::wall_ms(measurement);
     summary.wall_ms = base::spread_of(walls).value();
     summary.process_cpu_ms = base::spread_of(stage::process_cpu_ms(measurement)).value();
+    summary.work = stage::mean_work(measurement);
     summary.sum_ms = base::spread_of(sums);
     summary.envelope_ms = base::spread_of(envelopes);
     for (std::size_t i = 0; i < part_names.size(); ++i)
@@ -171,9 +172,9 @@ CaseSummary summarise(const stage::Measurement& measurement)
 std::string to_text(const CaseSummary& summary)
 {
     std::string text = fmt::format("{}: {}\n", summary.name, summary.what);
-    text += fmt::format("  {:<20} {:>8} {:>8} {:>8}  {:>8} {:>8} {:>8}  {:>6}  {:>13}  {:>9}  {:>9}  {}\n", "pass",
-                        "GPU ms", "p5", "p95", "CPU ms", "p5", "p95", "share", "ran/skip/cull", "refreshed",
-                        "kB out", "invocations");
+    text += fmt::format("  {:<20} {:>8} {:>8} {:>8}  {:>8} {:>8} {:>8}  {:>6}  {:>13}  {:>9}  {:>9}  {}\n",
+                        "pass", "GPU ms", "p5", "p95", "CPU ms", "p5", "p95", "share", "ran/skip/cull",
+                        "refreshed", "kB out", "invocations");
     for (const PassSummary& pass : summary.passes)
         text += fmt::format("  {:<20} {}  {}  {:5.1f}%  {:>13}  {:>9}  {:>9}  {}\n", pass.name,
                             spread_text(pass.gpu_ms), spread_text(pass.cpu_ms), 100 * pass.share,
@@ -181,10 +182,10 @@ std::string to_text(const CaseSummary& summary)
                             pass.ran > 0 ? fmt::format("{:.1f} %", 100 * pass.refreshed) : "-",
                             pass.ran > 0 ? fmt::format("{:.0f}", pass.bytes_written / 1e3) : "-",
                             invocations_text(pass.invocations));
-    text += fmt::format("  frame {:.2f} ms ({:.2f} to {:.2f}), {}; {:.2f} CPU ms ({:.2f} to {:.2f}) of all threads",
-                        summary.wall_ms.median, summary.wall_ms.p5, summary.wall_ms.p95,
-                        rate_text(summary.wall_ms.median), summary.process_cpu_ms.median, summary.process_cpu_ms.p5,
-                        summary.process_cpu_ms.p95);
+    text += fmt::format(
+        "  frame {:.2f} ms ({:.2f} to {:.2f}), {}; {:.2f} CPU ms ({:.2f} to {:.2f}) of all threads",
+        summary.wall_ms.median, summary.wall_ms.p5, summary.wall_ms.p95, rate_text(summary.wall_ms.median),
+        summary.process_cpu_ms.median, summary.process_cpu_ms.p5, summary.process_cpu_ms.p95);
     if (summary.sum_ms)
         text += fmt::format("; passes {:.2f} ms in sum, {:.2f} from the first start to the last end",
                             summary.sum_ms->median, summary.envelope_ms->median);
@@ -197,6 +198,14 @@ std::string to_text(const CaseSummary& summary)
     std::ranges::sort(rest, std::ranges::greater{}, &FramePart::share);
     for (std::size_t i = 0; i < 3; ++i)
         text += fmt::format("{} {} {:.1f} %", i == 0 ? "" : ",", rest[i].name, 100 * rest[i].share);
+    const stage::FrameWork& work = summary.work;
+    text += fmt::format(
+        "\n  counted per frame: {:.1f} passes, {:.0f} texels refreshed, {:.0f} kB written, {:.1f} maps "
+        "sampled",
+        work.passes, work.texels, work.bytes_written / 1e3, work.maps_sampled);
+    if (work.invocations)
+        text += fmt::format("; invocations: {:.0f} vertex, {:.0f} fragment, {:.0f} compute",
+                            work.invocations->vertex, work.invocations->fragment, work.invocations->compute);
     return text + "\n";
 }
 

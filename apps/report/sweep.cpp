@@ -224,9 +224,10 @@ Steps points(const scene::Scene& scene, const gpu::Device& device, const stage::
         for (const auto& wound : prepared)
             steps.cases.push_back({"", "",
                                    [=](graph::Graph& graph, double position) {
+                                       const wound::WoundDay today =
+                                           wound::wound_at(*wound, healing, 2 + 4 * position, level);
                                        const passes::WoundTexture texture = passes::add_wound_texture(
-                                           graph, "", *maps,
-                                           wound::wound_at(*wound, healing, 2 + 4 * position, level));
+                                           graph, "", *maps, today, passes::pack_warps(today));
                                        graph.readback("relief", texture.relief);
                                    },
                                    [] {}, true});

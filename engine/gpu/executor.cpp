@@ -5,6 +5,7 @@
 #include "engine/graph/binding_check.hpp"
 #include "engine/graph/formats.hpp"
 #include "engine/graph/graph_check.hpp"
+#include "engine/graph/pass_work.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -23,33 +24,6 @@ using Clock = std::chrono::steady_clock;
 double milliseconds(Clock::duration time)
 {
     return std::chrono::duration<double, std::milli>(time).count();
-}
-
-/// Bytes of the images that the pass writes and stores.
-std::uint64_t bytes_written(const graph::Graph& graph, const graph::PassPlan& planned)
-{
-    const auto size = [&](graph::ImageId id) {
-        const graph::ImageDesc& desc = graph.images[id.index].desc;
-        return std::uint64_t{desc.width} * desc.height * desc.samples *
-               graph::find_format(desc.format)->bytes;
-    };
-    const graph::Pass& pass = graph.passes[planned.pass];
-    std::uint64_t bytes = 0;
-    if (const auto* compute = std::get_if<graph::ComputePass>(&pass)) {
-        for (const graph::Bindings::Stored& stored : compute->stored)
-            bytes += size(stored.image);
-        return bytes;
-    }
-    const graph::RasterPass& raster = std::get<graph::RasterPass>(pass);
-    for (std::size_t i = 0; i < raster.colors.size(); ++i) {
-        if (planned.color_stores[i] == VK_ATTACHMENT_STORE_OP_STORE)
-            bytes += size(raster.colors[i].image);
-        if (raster.colors[i].resolve.valid())
-            bytes += size(raster.colors[i].resolve);
-    }
-    if (raster.depth_image.valid() && planned.depth_store == VK_ATTACHMENT_STORE_OP_STORE)
-        bytes += size(raster.depth_image);
-    return bytes;
 }
 
 /// Labels the commands recorded during its lifetime, for debuggers.
@@ -84,9 +58,10 @@ void compare_readbacks(const FrameResult& refreshed, const FrameResult& whole)
             continue;
         const std::size_t texel =
             std::size_t(differs - one.bytes.begin()) / graph::find_format(one.desc.format)->bytes;
-        throw std::logic_error(fmt::format("{} is outdated at texel {}, {}: a pass that it depends on confines a "
-                                           "change to a region that is too small",
-                                           one.name, texel % one.desc.width, texel / one.desc.width));
+        throw std::logic_error(
+            fmt::format("{} is outdated at texel {}, {}: a pass that it depends on confines a "
+                        "change to a region that is too small",
+                        one.name, texel % one.desc.width, texel / one.desc.width));
     }
 }
 
@@ -332,8 +307,7 @@ void Executor::record_passes(const graph::Graph& graph, Frame& frame, VkCommandB
             recorder.record(std::get<graph::RasterPass>(pass), planned);
         frame.slot.end_count();
         frame.slot.timestamp();
-        result.refreshed = refreshed_share(graph, planned);
-        result.bytes_written = std::uint64_t(std::llround(result.refreshed * double(bytes_written(graph, planned))));
+        result.work = graph::work_of(graph, planned);
         result.cpu_begin_ms = milliseconds(start - frame.start);
         result.cpu_ms = milliseconds(Clock::now() - start);
     }

@@ -5,6 +5,7 @@
 #include "engine/gpu/frame_slot.hpp"
 #include "engine/gpu/pipelines.hpp"
 #include "engine/graph/graph.hpp"
+#include "engine/graph/pass_work.hpp"
 #include "engine/graph/schedule.hpp"
 #include "engine/graph/shader_library.hpp"
 
@@ -40,8 +41,7 @@ struct PassResult
     std::optional<double> gpu_begin_ms; // the same
     double cpu_ms = 0;                  // recording; includes compiling pipelines on the first run
     double cpu_begin_ms = 0;
-    std::uint64_t bytes_written = 0;        // to its declared images that are stored; 0 unless it ran
-    double refreshed = 0;                   // share of its images that it wrote, 0..1
+    graph::PassWork work;                   // nothing unless it ran
     std::optional<Invocations> invocations; // of passes that ran, if counted and supported
 };
 
@@ -93,8 +93,8 @@ struct Measuring
 {
     bool align = false; // calibrated timestamps, if supported
     bool count = false; // shader invocations, if supported; may slow the passes down
-    /// run() runs every pass a second time, whole, and throws std::logic_error when a readback differs: a pass
-    /// declares a wrong region (graph::Reach).
+    /// run() runs every pass a second time, whole, and throws std::logic_error when a readback differs: a
+    /// pass declares a wrong region (graph::Reach).
     bool check_regions = false;
 };
 

@@ -40,7 +40,8 @@ void Recorder::record(const graph::ComputePass& pass, const graph::PassPlan& pla
     const auto& local = pipeline.group->stages.front()->interface.local_size;
     const graph::Region region = planned.region.value_or(graph::Region{0, 0, pass.width, pass.height});
     const std::uint32_t first_x = region.x / local[0], first_y = region.y / local[1];
-    vkCmdDispatchBase(commands_, first_x, first_y, 0, (region.x + region.width + local[0] - 1) / local[0] - first_x,
+    vkCmdDispatchBase(commands_, first_x, first_y, 0,
+                      (region.x + region.width + local[0] - 1) / local[0] - first_x,
                       (region.y + region.height + local[1] - 1) / local[1] - first_y, 1);
 }
 
@@ -159,7 +160,7 @@ VkDescriptorBufferInfo Recorder::upload(const graph::ShaderGroup::Binding& bindi
     // An empty array is bound as one element of zeros.
     const VkDeviceSize least = std::max(binding.size + binding.stride, 4u);
     const UploadedData uploaded =
-        slot_.arena().add(data.bytes, std::max<VkDeviceSize>(data.bytes.size(), least), alignment);
+        slot_.arena().add(data.bytes.view(), std::max<VkDeviceSize>(data.bytes.size(), least), alignment);
     return {uploaded.buffer, uploaded.offset, uploaded.size};
 }
 

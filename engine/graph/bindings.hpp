@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <ranges>
 #include <span>
 #include <string>
@@ -28,6 +29,27 @@ enum class Sampler : std::uint8_t
     NearestClamp,
 };
 
+/// A copy of bytes with its hash. Copies share it: what stays the same for many frames need not be hashed in
+/// each of them.
+class Bytes
+{
+  public:
+    explicit Bytes(std::span<const std::byte> value);
+    template <std::ranges::contiguous_range Range>
+    static Bytes of(const Range& values)
+    {
+        static_assert(std::is_trivially_copyable_v<std::ranges::range_value_t<Range>>);
+        return Bytes(std::as_bytes(std::span(values)));
+    }
+    std::span<const std::byte> view() const { return *bytes_; }
+    std::size_t size() const { return bytes_->size(); }
+    std::uint64_t hash() const { return hash_; }
+
+  private:
+    std::shared_ptr<const std::vector<std::byte>> bytes_;
+    std::uint64_t hash_;
+};
+
 using Constant = std::variant<bool, std::int32_t, std::uint32_t, float>;
 
 /// Values by the names in the shader's source (for a block: its instance name, or its block name when it has
@@ -47,21 +69,21 @@ class Bindings
     void uniform(std::string_view name, const T& value)
     {
         static_assert(std::is_trivially_copyable_v<T>);
-        bytes(name, std::as_bytes(std::span(&value, 1)), false);
+        set(name, Bytes(std::as_bytes(std::span(&value, 1))), false);
     }
     /// Read-only storage buffer: a copy of an array of T in scalar layout. An empty array becomes one
     /// element of zeros.
     template <typename T>
     void buffer(std::string_view name, std::span<const T> values)
     {
-        static_assert(std::is_trivially_copyable_v<T>);
-        bytes(name, std::as_bytes(values), true);
+        buffer(name, Bytes::of(values));
     }
     template <std::ranges::contiguous_range Range>
     void buffer(std::string_view name, const Range& values)
     {
-        buffer(name, std::span<const std::ranges::range_value_t<Range>>(values));
+        buffer(name, Bytes::of(values));
     }
+    void buffer(std::string_view name, const Bytes& values) { set(name, values, true); }
     /// Specialisation constant (constant_id) by its name in the shader.
     void constant(std::string_view name, Constant value);
 
@@ -79,7 +101,7 @@ class Bindings
     struct Data
     {
         std::string name;
-        std::vector<std::byte> bytes;
+        Bytes bytes;
         bool storage;
     };
     std::vector<Sampled> sampled;
@@ -88,7 +110,7 @@ class Bindings
     std::map<std::string, Constant, std::less<>> constants;
 
   private:
-    void bytes(std::string_view name, std::span<const std::byte> value, bool storage);
+    void set(std::string_view name, const Bytes& value, bool storage);
 };
 
 } // namespace graph

@@ -1,5 +1,7 @@
 #include "engine/graph/graph.hpp"
 
+#include "base/hash.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -21,6 +23,12 @@ void add_or_replace(std::vector<Named>& list, Named value)
 
 } // namespace
 
+Bytes::Bytes(std::span<const std::byte> value)
+    : bytes_(std::make_shared<const std::vector<std::byte>>(value.begin(), value.end())),
+      hash_(base::Hash().add(value).value())
+{
+}
+
 void Bindings::sample(std::string_view name, ImageId image, Sampler sampler)
 {
     sample(name, std::span(&image, 1), sampler);
@@ -41,9 +49,9 @@ void Bindings::constant(std::string_view name, Constant value)
     constants.insert_or_assign(std::string(name), value);
 }
 
-void Bindings::bytes(std::string_view name, std::span<const std::byte> value, bool storage)
+void Bindings::set(std::string_view name, const Bytes& value, bool storage)
 {
-    add_or_replace(data, Data{std::string(name), {value.begin(), value.end()}, storage});
+    add_or_replace(data, Data{std::string(name), value, storage});
 }
 
 void ComputePass::dispatch(std::uint32_t invocations_x, std::uint32_t invocations_y)

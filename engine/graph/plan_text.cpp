@@ -1,5 +1,7 @@
 #include "engine/graph/plan_text.hpp"
 
+#include "engine/graph/pass_work.hpp"
+
 #include "engine/graph/formats.hpp"
 #include "engine/graph/graph_check.hpp"
 
@@ -135,8 +137,9 @@ std::string plan_dot(const Graph& graph, const Plan& plan)
         const char* style = planned.state == PassState::Run       ? "filled"
                             : planned.state == PassState::Skipped ? "dashed"
                                                                   : "dotted";
-        text += fmt::format("  {} [shape=box, style={}, label={}];\n", in_dot_quotes("pass " + planned.name), style,
-                            in_dot_quotes(planned.name + "\n" + name_of(planned.state) + ": " + planned.reason));
+        text += fmt::format(
+            "  {} [shape=box, style={}, label={}];\n", in_dot_quotes("pass " + planned.name), style,
+            in_dot_quotes(planned.name + "\n" + name_of(planned.state) + ": " + planned.reason));
     }
     for (const Graph::Image& image : graph.images)
         text += fmt::format("  {} [shape=ellipse{}, label={}];\n", in_dot_quotes("image " + image.name),
@@ -158,8 +161,9 @@ std::string plan_dot(const Graph& graph, const Plan& plan)
         }
     }
     for (const Graph::Readback& readback : graph.readbacks)
-        text += fmt::format("  {} -> {};\n", in_dot_quotes("image " + graph.images[readback.image.index].name),
-                            in_dot_quotes("readback " + readback.name));
+        text +=
+            fmt::format("  {} -> {};\n", in_dot_quotes("image " + graph.images[readback.image.index].name),
+                        in_dot_quotes("readback " + readback.name));
     for (const ImageId id : graph.presented)
         text += fmt::format("  {} -> window;\n", in_dot_quotes("image " + graph.images[id.index].name));
     return text + "}\n";

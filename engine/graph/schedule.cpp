@@ -2,6 +2,7 @@
 
 #include "base/hash.hpp"
 #include "engine/graph/graph_check.hpp"
+#include "engine/graph/pass_key.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -9,57 +10,6 @@
 namespace graph {
 
 namespace {
-
-void add_bindings(std::vector<KeyPart>& key, const std::string& prefix, const Bindings& bindings)
-{
-    for (const auto& [name, value] : bindings.constants) {
-        base::Hash hash;
-        hash.add(value.index());
-        std::visit([&](auto v) { hash.add(v); }, value);
-        key.push_back({prefix + "constant " + name, hash.value()});
-    }
-    for (const Bindings::Data& data : bindings.data)
-        key.push_back({prefix + (data.storage ? "buffer " : "uniform ") + data.name,
-                       base::Hash().add(data.bytes).value()});
-    for (const Bindings::Stored& stored : bindings.stored)
-        key.push_back({prefix + "stored " + stored.name, base::Hash().add(stored.image.index).value()});
-}
-
-void add_draw(std::vector<KeyPart>& key, const std::string& prefix, const Draw& draw)
-{
-    base::Hash hash;
-    hash.add(draw.shader)
-        .add(draw.mesh ? draw.mesh->content() : 0)
-        .add(draw.first_index)
-        .add(draw.index_count);
-    hash.add(draw.cull_back_faces).add(draw.blend).add(draw.depth_test).add(draw.depth_write);
-    key.push_back({prefix + "draw", hash.value()});
-    add_bindings(key, prefix, draw);
-}
-
-/// The key of a pass without its images.
-std::vector<KeyPart> declared_key(const Pass& pass)
-{
-    std::vector<KeyPart> key;
-    if (const auto* compute = std::get_if<ComputePass>(&pass)) {
-        key.push_back({"shader", base::Hash().add(compute->shader).value()});
-        key.push_back({"dispatch", base::Hash().add(compute->width).add(compute->height).value()});
-        add_bindings(key, "", *compute);
-        return key;
-    }
-    const auto& raster = std::get<RasterPass>(pass);
-    base::Hash targets;
-    for (const RasterPass::ColorTarget& target : raster.colors) {
-        targets.add(target.resolve.valid());
-        for (const float channel : target.clear)
-            targets.add(channel);
-    }
-    key.push_back({"targets", targets.add(raster.depth_image.valid()).add(raster.depth_clear).value()});
-    add_bindings(key, "", raster);
-    for (std::size_t i = 0; i < raster.draws.size(); ++i)
-        add_draw(key, raster.draws.size() == 1 ? "" : fmt::format("draw {}: ", i), raster.draws[i]);
-    return key;
-}
 
 /// Schedules one frame.
 class Scheduler
@@ -161,7 +111,8 @@ class Scheduler
             image.first = std::min(image.first, position);
             image.last = position;
         }
-        std::vector<KeyPart> key = full_key(position);
+        std::vector<KeyPart> key =
+            pass_key(graph_, graph_.passes[planned.pass], accesses_[position], content_versions_);
         const bool always = std::visit([](const auto& p) { return p.always; }, graph_.passes[planned.pass]);
         const std::string outdated = update_outputs(position, key, always);
         planned.region = always || outdated.empty() ? std::nullopt : changed_region(position, key);
@@ -183,60 +134,6 @@ class Scheduler
                 if (key[i] == last->second[i] && key[i].region && last->second[i].region)
                     key[i].region = bounds(*key[i].region, *last->second[i].region);
         plan_.memory.passes[planned.name] = std::move(key);
-    }
-
-    std::vector<KeyPart> full_key(std::uint32_t position) const
-    {
-        std::vector<KeyPart> key = declared_key(graph_.passes[plan_.passes[position].pass]);
-        for (const ImageAccess& access : accesses_[position]) {
-            const ImageDesc& desc = graph_.images[access.image.index].desc;
-            if (writes(access))
-                key.push_back({"size of " + image_name(access.image), base::Hash()
-                                                                          .add(desc.width)
-                                                                          .add(desc.height)
-                                                                          .add(desc.format)
-                                                                          .add(desc.samples)
-                                                                          .value()});
-            else
-                key.push_back({"input " + image_name(access.image), content_versions_[access.image.index]});
-        }
-        add_samplers(key, graph_.passes[plan_.passes[position].pass]);
-        add_reach(key, graph_.passes[plan_.passes[position].pass]);
-        return key;
-    }
-
-    void add_reach(std::vector<KeyPart>& key, const Pass& pass) const
-    {
-        const auto& confined = std::visit(
-            [](const Reach& reach) -> const auto& { return reach.confined; }, pass);
-        for (const Reach::Confined& input : confined)
-            for (KeyPart& part : key)
-                if (input.image.valid() ? part.what == "input " + image_name(input.image)
-                                        : part.what.ends_with("uniform " + input.block) ||
-                                              part.what.ends_with("buffer " + input.block))
-                { // of the pass or a draw
-                    part.region = input.region;
-                    part.source = input.source;
-                    part.in_place = !input.region;
-                }
-    }
-
-    /// Shader name, filter and number of images of each sampled binding.
-    static void add_samplers(std::vector<KeyPart>& key, const Pass& pass)
-    {
-        base::Hash hash;
-        const auto add = [&](const Bindings& bindings) {
-            for (const Bindings::Sampled& sampled : bindings.sampled) {
-                hash.add(sampled.name).add(sampled.sampler).add(sampled.images.size());
-            }
-        };
-        if (const auto* raster = std::get_if<RasterPass>(&pass)) {
-            add(*raster);
-            for (const Draw& draw : raster->draws)
-                add(draw);
-        } else
-            add(std::get<ComputePass>(pass));
-        key.push_back({"samplers", hash.value()});
     }
 
     /// Gives every output its content_version and returns the name of the
@@ -399,20 +296,6 @@ Plan schedule(const Graph& graph, const Memory& memory)
 {
     throw_if_any(check_graph(graph));
     return Scheduler(graph, memory).run();
-}
-
-double refreshed_share(const Graph& graph, const PassPlan& planned)
-{
-    if (planned.state != PassState::Run)
-        return 0;
-    if (!planned.region)
-        return 1;
-    for (const ImageAccess& access : accesses(graph.passes[planned.pass]))
-        if (access_row(access.usage).writes) {
-            const ImageDesc& desc = graph.images[access.image.index].desc;
-            return double(planned.region->texels()) / (double(desc.width) * desc.height);
-        }
-    return 1;
 }
 
 const char* name_of(PassState state)

@@ -6,24 +6,13 @@
 #pragma once
 #include "engine/graph/access.hpp"
 #include "engine/graph/graph.hpp"
+#include "engine/graph/pass_key.hpp"
 
 #include <map>
 #include <string>
 #include <vector>
 
 namespace graph {
-
-/// One input that determines a pass's output ("uniform day", "input wound_color") and a hash of its value.
-struct KeyPart
-{
-    std::string what;
-    std::uint64_t hash = 0;
-    /// What a change touches (Reach); none: everything.
-    std::optional<Region> region;
-    std::optional<Region> source;
-    bool in_place = false;
-    bool operator==(const KeyPart& other) const { return what == other.what && hash == other.hash; }
-};
 
 struct ImageState
 {
@@ -87,9 +76,6 @@ struct Plan
 
 /// Throws std::logic_error when the declaration is wrong; see graph_check.hpp.
 Plan schedule(const Graph& graph, const Memory& memory);
-
-/// Texels that a running pass writes over the texels of its images, 0..1.
-double refreshed_share(const Graph& graph, const PassPlan& planned);
 
 const char* name_of(PassState state);
 

@@ -22,7 +22,7 @@ layout(location = 0) out vec4 out_color;
 layout(scalar, binding = 0) uniform View_ { View view; };
 layout(scalar, binding = 14) uniform Develop_ { Develop develop; };
 #ifdef DIFFUSED
-layout(location = 11) in vec2 v_place;
+layout(location = 12) in vec2 v_place;
 layout(binding = 15) uniform sampler2D diffused_light;
 #endif
 
@@ -43,7 +43,9 @@ void main()
     const vec3 visible = AMBIENT ? surroundings_seen(open * skin.occlusion, params.rho_d * skin.albedo) : vec3(0);
     const DiffuseSkin body =
         diffuse_skin(TRANSPORT, params.rho_d * skin.albedo, part.scattering * params.scattering, v_curvature);
-    vec3 diffuse = params.ambient * visible * skin.albedo * body.gain; // ambient: times rho_d already
+    vec3 diffuse = vec3(0);
+    if (AMBIENT)
+        diffuse = params.ambient * surroundings_left(TRANSPORT, body, visible, v_thinness) * skin.albedo; // ambient: times rho_d already
     vec3 mirrored = vec3(0), bounced = vec3(0);
     for (uint i = 0; i < LIGHTS; ++i)
     {

@@ -22,6 +22,7 @@ layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
 layout(location = 4) in float occlusion;
 layout(location = 5) in vec2 curvature; // 1/m, mean and root mean square
+layout(location = 6) in float thinness; // 1/m
 
 layout(location = 0) out vec3 v_position;
 layout(location = 1) out vec3 v_normal;
@@ -32,9 +33,10 @@ layout(location = 5) out vec4 v_shadow_place[2]; // of the first two lights
 layout(location = 7) out vec4 v_shadow_slope[2];
 layout(location = 9) out vec2 v_curvature;
 layout(location = 10) out float v_occlusion;
+layout(location = 11) out float v_thinness;
 #ifdef DIFFUSED
-layout(location = 6) in vec2 place;
-layout(location = 11) out vec2 v_place;
+layout(location = 7) in vec2 place;
+layout(location = 12) out vec2 v_place;
 #endif
 
 void main()
@@ -49,6 +51,7 @@ void main()
         for (uint i = 0; i < LIGHTS; ++i)
             v_subsurface += subsurface_diffuse(TRANSLUCENCY_MODEL, shading, lighting.light[i], position);
     v_curvature = curvature;
+    v_thinness = thinness;
 #ifdef DIFFUSED
     v_place = place;
 #endif

@@ -12,7 +12,8 @@ layout(constant_id = 14) const bool BOUNCE = true; // light that reaches a hollo
 
 layout(location = 5) in vec4 v_shadow_place[2]; // of the first two lights
 layout(location = 7) in vec4 v_shadow_slope[2];
-layout(location = 9) in vec2 v_curvature; // 1/m
+layout(location = 9) in vec2 v_curvature; // 1/m, as the next
+layout(location = 11) in float v_thinness;
 
 layout(scalar, binding = 2) uniform Shading_ { ShadingParams shading; };
 layout(scalar, binding = 3) uniform Lighting_ { Lighting lighting; };

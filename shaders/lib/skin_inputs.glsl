@@ -6,7 +6,7 @@
 #include "lib/wound_projection.glsl"
 #include "shared/part.h"
 
-layout(constant_id = 0) const uint WOUNDS = 0; // number of projected wounds
+layout(constant_id = 0) const uint WOUNDS = 0; // number of projected wounds, at most WOUNDS_HERE
 layout(constant_id = 4) const bool NORMAL_MAP = true;
 layout(constant_id = 6) const bool AMBIENT = true; // ambient light times occlusion
 layout(constant_id = 9) const uint BLEND_MODEL = BLEND_CORRECTED;
@@ -19,21 +19,14 @@ layout(location = 3) in vec2 v_uv;
 layout(location = 10) in float v_occlusion;
 
 layout(scalar, binding = 1) uniform Part_ { Part part; };
-layout(scalar, binding = 4) uniform Wounds_ { WoundFrame wounds[MAX_WOUNDS]; };
+layout(scalar, binding = 4) uniform Wounds_ { WoundFrame wounds[WOUNDS_HERE]; };
 layout(binding = 5) uniform sampler2D albedo_map;
 layout(binding = 6) uniform sampler2D normal_map;
-#ifndef DIFFUSED
 layout(binding = 7) uniform sampler2D occlusion_map;
-#endif
-layout(binding = 8) uniform sampler2D wound_color[MAX_WOUNDS];
-layout(binding = 9) uniform sampler2D wound_state[MAX_WOUNDS];
-layout(binding = 10) uniform sampler2D wound_relief[MAX_WOUNDS];
-layout(binding = 11) uniform sampler2D reflectance_lut[MAX_WOUNDS];
-
-#define ADD_WOUND(i)                                                                                                            \
-    if (WOUNDS > i)                                                                                                            \
-        add_wound(BLEND_MODEL, wounds[i], wound_color[i], wound_state[i], wound_relief[i], reflectance_lut[i], v_position,     \
-                  frame[2], skin);
+layout(binding = 8) uniform sampler2D wound_color[WOUNDS_HERE];
+layout(binding = 9) uniform sampler2D wound_state[WOUNDS_HERE];
+layout(binding = 10) uniform sampler2D wound_relief[WOUNDS_HERE];
+layout(binding = 11) uniform sampler2D reflectance_lut[WOUNDS_HERE];
 
 // frame: of the smooth surface. open: share of the surroundings that the head lets through; SkinPoint::occlusion: that the
 // wound does.
@@ -48,16 +41,13 @@ SkinPoint skin_here(mat3 frame, out float alpha, out float open)
         skin.normal = normalize_or(frame * vec3(mapped.xy * part.normal_scale, max(mapped.z, 0.05)), frame[2]);
     }
     open = 1;
-#ifdef DIFFUSED
-    if (AMBIENT)
-        open = v_occlusion;
-#else
     if (AMBIENT)
         open = OCCLUSION_MAP ? texture(occlusion_map, v_uv).r : v_occlusion;
-#endif
-    // Unrolled by hand: indexing an array of samplers by a loop counter is ten times slower on a software
-    // rasteriser.
-    ADD_WOUND(0) ADD_WOUND(1) ADD_WOUND(2) ADD_WOUND(3) ADD_WOUND(4) ADD_WOUND(5) ADD_WOUND(6)
+    // Unrolled: indexing an array of samplers by a loop counter is ten times slower on a software rasteriser.
+    [[unroll]] for (uint i = 0; i < WOUNDS_HERE; ++i)
+        if (i < WOUNDS)
+            add_wound(BLEND_MODEL, wounds[i], wound_color[i], wound_state[i], wound_relief[i], reflectance_lut[i], v_position,
+                      frame[2], skin);
     return skin;
 }
 

@@ -39,6 +39,19 @@ DiffuseSkin diffuse_skin(uint transport, vec3 albedo, vec3 scattering, vec2 curv
     return skin;
 }
 
+// What leaves of the surroundings' even light, over it and skin.albedo. seen: share of it that reaches the point;
+// thinness: 1/m, of the part of the head, 0: thick.
+vec3 surroundings_left(uint transport, DiffuseSkin skin, vec3 seen, float thinness)
+{
+    if (transport != TRANSPORT_PREINTEGRATED && transport != TRANSPORT_DIFFUSED)
+        return seen;
+    vec3 albedo = clamp(skin.albedo, 1e-3, 0.99), square = albedo * albedo;
+    vec3 depth = 3.0 * skin.width / (1.0 - square * sqrt(albedo));
+    vec3 share = exp(-1.0 / max(depth * thinness, 1e-3)) * vec3(greaterThan(skin.width, vec3(LEAST_WIDTH_M)));
+    vec3 passed = (1.0 - square) * share / (albedo * (1.0 + albedo * share));
+    return seen * min(skin.gain, 1.0) + max(seen * (skin.gain - 1.0), passed);
+}
+
 // The light that a ball returns where its normal and the light enclose this angle, over skin.gain and what a plane that
 // faces the light returns: a hyperbola.
 vec3 received_bent(DiffuseSkin skin, vec3 cosine)

@@ -7,13 +7,16 @@
 namespace shared {
 #endif
 
-// Four textures per wound and four of the head are the 32 samplers that lavapipe allows per shader. (With
-// more it confuses samplers.)
 #ifdef __cplusplus
-constexpr uint MAX_WOUNDS = 7;
+#define CONSTANT constexpr uint
 #else
-const uint MAX_WOUNDS = 7;
+#define CONSTANT const uint
 #endif
+
+CONSTANT MAX_WOUNDS = 255; // of a scene: label images number them in a byte
+// Wounds that one draw can show. Four textures of each and five of the head are nearly the 32 samplers that lavapipe
+// allows per shader. (With more it confuses samplers.)
+CONSTANT WOUNDS_HERE = 6;
 
 struct View
 {
@@ -39,8 +42,10 @@ struct WoundFrame
     float epithelium; // 1: new epithelium covers the area between bed and border; 0: the border contracts
     float pore_loss;  // of new epithelium and scar: 1 no pores or fine lines .. 0 like skin
     float sheen;      // 1 as smooth and shiny as new epithelium .. 0 like skin
+    uint number;      // of the wound in its scene, from 1
 };
 
+#undef CONSTANT
 #ifdef __cplusplus
 } // namespace shared
 #endif

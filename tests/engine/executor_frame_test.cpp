@@ -85,7 +85,7 @@ TEST_F(ExecutorTest, CountsInvocationsAndBytesOfPassesThatRan)
     const gpu::FrameResult counted = frame();
     constexpr std::uint64_t texels = std::uint64_t{small_float.width} * small_float.height;
     for (const char* name : {"fill", "show"})
-        EXPECT_EQ(counted.pass(name).bytes_written, 16 * texels) << name;
+        EXPECT_EQ(counted.pass(name).work.bytes_written, 16 * texels) << name;
     if (gpu_test::device().info().statistics) {
         const gpu::Invocations fill = counted.pass("fill").invocations.value(),
                                show = counted.pass("show").invocations.value();
@@ -98,7 +98,7 @@ TEST_F(ExecutorTest, CountsInvocationsAndBytesOfPassesThatRan)
         EXPECT_FALSE(counted.pass("fill").invocations);
     }
     const gpu::FrameResult still = frame();
-    EXPECT_EQ(still.pass("fill").bytes_written, 0u);
+    EXPECT_EQ(still.pass("fill").work.bytes_written, 0u);
     EXPECT_FALSE(still.pass("fill").invocations);
     EXPECT_FALSE(still.pass("fill").gpu_begin_ms);
 }
@@ -118,7 +118,7 @@ TEST_F(ExecutorTest, OnlyWhatIsStoredCountsAsWritten)
     show.uniform("Tint", glm::vec4(1));
     show.draw("test_quad").index_count = 3;
     graph.readback("one", one);
-    EXPECT_EQ(executor.run(graph).pass("show").bytes_written, 8u * 8 * 4)
+    EXPECT_EQ(executor.run(graph).pass("show").work.bytes_written, 8u * 8 * 4)
         << "neither the samples nor the depth are needed once resolved";
 }
 

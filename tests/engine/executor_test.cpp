@@ -107,14 +107,15 @@ TEST_F(ExecutorTest, AConfinedChangeWritesItsRegionAndKeepsTheRest)
     };
     draw(1, 1);
     const gpu::FrameResult second = draw(2, 3);
-    EXPECT_NEAR(second.pass("show").refreshed, 15 / 240., 1e-12);
-    EXPECT_EQ(second.pass("show").bytes_written, 15u * 16);
+    EXPECT_NEAR(second.pass("show").work.refreshed, 15 / 240., 1e-12);
+    EXPECT_EQ(second.pass("show").work.bytes_written, 15u * 16);
     const cv::Mat4f shown = second.mat({0}), filled = second.mat({1});
     for (int y = 0; y < shown.rows; ++y)
         for (int x = 0; x < shown.cols; ++x) {
             const bool inside = x >= 9 && x < 14 && y >= 8 && y < 11;
             const bool computed = x >= 8 && x < 16 && y >= 8; // whole work groups
-            ASSERT_EQ(shown(y, x)[0], inside ? 3 * (0.25f + 2 * float(x)) : 0.25f + float(x)) << x << ' ' << y;
+            ASSERT_EQ(shown(y, x)[0], inside ? 3 * (0.25f + 2 * float(x)) : 0.25f + float(x))
+                << x << ' ' << y;
             ASSERT_EQ(filled(y, x)[0], 0.25f + (computed ? 2 : 1) * float(x)) << x << ' ' << y;
         }
 }

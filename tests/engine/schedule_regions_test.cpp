@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/graph/pass_work.hpp"
 #include "scheduled_passes.hpp"
 
 using namespace scheduled_passes;

@@ -151,4 +151,65 @@ TEST(BakedOcclusion, IsForHeadsThatBringNoMap)
     EXPECT_FALSE(head::has_occlusion_map(model));
     model.materials[1].occlusion = cv::Mat1b(1, 1, uchar(200));
     EXPECT_TRUE(head::has_occlusion_map(model));
+    for (const float open : occlusion_of(baked(model)))
+        EXPECT_EQ(open, 1);
+}
+
+namespace {
+
+/// Two sides of a plate, 20 cm wide, and `gap` behind it, if that is not 0, a wall. The plate's front comes
+/// first.
+head::Model plate(float thickness, float gap = 0)
+{
+    head::Model model;
+    add_square(model, {0, 0, 0}, {.1f, 0, 0}, {0, .1f, 0}, 20, head::AlphaMode::Opaque);
+    add_square(model, {0, 0, -thickness}, {-.1f, 0, 0}, {0, .1f, 0}, 20, head::AlphaMode::Opaque);
+    if (gap > 0)
+        add_square(model, {0, 0, -thickness - gap}, {.1f, 0, 0}, {0, .1f, 0}, 20, head::AlphaMode::Opaque);
+    return model;
+}
+
+/// In the middle of its front.
+float thinness_of(const head::Model& model)
+{
+    return baked(model).vertices[10 * 21 + 10].thinness;
+}
+
+} // namespace
+
+TEST(Thinness, IsThatOfASlab)
+{
+    for (const float thickness : {1e-3f, 2e-3f, 5e-3f})
+        EXPECT_NEAR(thinness_of(plate(thickness)) * thickness, 1, .06f) << thickness;
+    EXPECT_EQ(thinness_of(plate(.03f)), 0);
+}
+
+TEST(Thinness, IsLessWhenTheFarSideIsHidden)
+{
+    EXPECT_EQ(thinness_of(plate(2e-3f, 1e-3f)), 0);
+    head::Model half = plate(2e-3f);
+    // A wall that stands on the far side, at the middle.
+    add_square(half, {0, -.001f, -.102f}, {.1f, 0, 0}, {0, 0, .1f}, 4, head::AlphaMode::Opaque);
+    EXPECT_LT(thinness_of(half), .95f * thinness_of(plate(2e-3f)));
+    EXPECT_GT(thinness_of(half), .5f * thinness_of(plate(2e-3f)));
+}
+
+TEST(Thinness, IsNoneOfWhatAnotherBodyFills)
+{
+    head::Model model = plate(4e-3f);
+    add_square(model, {0, 0, -2e-3f}, {.1f, 0, 0}, {0, .1f, 0}, 2, head::AlphaMode::Opaque); // begins inside
+    EXPECT_EQ(thinness_of(model), 0);
+}
+
+TEST(Thinness, IsKept)
+{
+    const TemporaryFolder folder;
+    head::Model first = plate(2e-3f), second = first;
+    EXPECT_EQ(head::bake_occlusion(first, head::Bvh(first), folder.path()), "");
+    EXPECT_EQ(head::bake_occlusion(second, head::Bvh(std::vector<glm::vec3>{}, std::vector<std::uint32_t>{}),
+                                   folder.path()),
+              "");
+    EXPECT_GT(first.vertices[220].thinness, 0);
+    for (std::size_t i = 0; i < first.vertices.size(); ++i)
+        EXPECT_EQ(first.vertices[i].thinness, second.vertices[i].thinness);
 }

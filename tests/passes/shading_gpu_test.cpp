@@ -5,6 +5,7 @@
 
 #include "shading_cases.hpp"
 #include "wound/optics/specular.hpp"
+#include "wound/optics/transport.hpp"
 
 namespace {
 
@@ -281,4 +282,38 @@ TEST_F(ShadingOnGpu, WholeEquationEqualsTheReference)
                   5e-5 * cv::norm(references[n], cv::NORM_INF) + 1e-7)
             << n;
     }
+}
+
+TEST_F(ShadingOnGpu, SurroundingsLeftEqualsTheReference)
+{
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> unit(0, 1);
+    const auto color = [&] { return glm::vec3(unit(random), unit(random), unit(random)); };
+    std::vector<ShadingCase> cases;
+    std::vector<cv::Vec3d> references;
+    for (int n = 0; n < 3000; ++n) {
+        optics::Shading shading;
+        shading.transport = static_cast<optics::Transport>(n % 9 == 0 ? n / 9 % 3 : 2);
+        optics::ShadedPoint point;
+        point.scattering_length_mm =
+            2 * base::Color(unit(random), unit(random), n % 7 == 0 ? 0 : unit(random));
+        point.curvature = {200 * unit(random) - 100, 300 * unit(random)};
+        ShadingCase c{};
+        c.formula = shared::FORMULA_SURROUNDINGS_LEFT;
+        c.a = n % 11 == 0 ? glm::vec3(0, 1, 1) : color();
+        c.b = color();
+        c.transport = static_cast<shared::uint>(shading.transport);
+        c.curvature = glm::vec2(glm::dvec2(point.curvature[0], point.curvature[1]));
+        c.thinness = n % 5 == 0 ? 0 : static_cast<float>(2000 * unit(random) * unit(random));
+        c.params = passes::shading_params(shading, point.scattering_length_mm);
+        cases.push_back(c);
+        point.albedo = to_double(c.a);
+        point.thinness = c.thinness;
+        references.push_back(optics::surroundings_left(shading, point, to_double(c.b)));
+    }
+    const std::vector<glm::vec3> values = evaluate(cases);
+    for (std::size_t n = 0; n < cases.size(); ++n)
+        EXPECT_LT(max_difference(values[n], references[n]),
+                  5e-5 * cv::norm(references[n], cv::NORM_INF) + 1e-6)
+            << n;
 }

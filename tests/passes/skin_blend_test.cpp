@@ -83,7 +83,8 @@ class Scene
     cv::Mat4f draw(const wound::WoundDay& today, const optics::Shading& shading,
                    const std::vector<optics::Light>& lights = {})
     {
-        const passes::FrameWound wound{anchor_, maps_, tissue_, today};
+        const passes::PackedWarps warps = passes::pack_warps(today);
+        const passes::FrameWound wound{anchor_, maps_, tissue_, today, warps};
         graph::Graph graph;
         const passes::FrameImages images =
             passes::add_frame(graph, {.head = head_,

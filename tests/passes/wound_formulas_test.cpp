@@ -47,8 +47,8 @@ TEST_F(WoundFormulas, PhaseColoursOfTheBedEqualTheReference)
         day.in_phases = true;
         day.phase = phase;
         graph::Graph graph;
-        const graph::ReadbackId id =
-            graph.readback("color", passes::add_wound_texture(graph, "", maps, day).color);
+        const graph::ReadbackId id = graph.readback(
+            "color", passes::add_wound_texture(graph, "", maps, day, passes::pack_warps(day)).color);
         const cv::Mat4f drawn = read(executor.run(graph), id);
         double worst = 0;
         for (int y = 0; y < side; ++y)
@@ -106,7 +106,8 @@ TEST_F(WoundFormulas, ReliefIsTheSlopeAndTheOpennessOfTheDepth)
     for (const double today : {0., 6., 15., 60.}) {
         const wound::WoundDay day = wound::wound_at(wound, {}, today);
         graph::Graph graph;
-        const passes::WoundTexture texture = passes::add_wound_texture(graph, "", maps, day);
+        const passes::WoundTexture texture =
+            passes::add_wound_texture(graph, "", maps, day, passes::pack_warps(day));
         const graph::ReadbackId color_id = graph.readback("color", texture.color),
                                 state_id = graph.readback("state", texture.state),
                                 relief_id = graph.readback("relief", texture.relief);

@@ -63,7 +63,8 @@ wound::WoundDay day_with(const wound::PreparedWound& wound, double bed_ratio, do
 wound::DayMaps draw(gpu::Executor& executor, const passes::WoundMaps& maps, const wound::WoundDay& today)
 {
     graph::Graph graph;
-    const passes::WoundTexture texture = passes::add_wound_texture(graph, "", maps, today);
+    const passes::WoundTexture texture =
+        passes::add_wound_texture(graph, "", maps, today, passes::pack_warps(today));
     const graph::ReadbackId ids[] = {graph.readback("color", texture.color),
                                      graph.readback("state", texture.state),
                                      graph.readback("relief", texture.relief)};

@@ -35,6 +35,25 @@ class Ball : public reference::Body
     double radius_;
 };
 
+/// The body between z = -thickness and z = 0.
+class Slab : public reference::Body
+{
+  public:
+    explicit Slab(double thickness) : thickness_(thickness) {}
+    std::optional<SurfaceHit> first_on_ray(const glm::dvec3& origin, const glm::dvec3& direction,
+                                           double reach) const override
+    {
+        const bool up = direction.z > 0;
+        const double distance = ((up ? 0 : -thickness_) - origin.z) / direction.z;
+        if (!(distance <= reach))
+            return std::nullopt;
+        return SurfaceHit{.distance = std::max(distance, 0.0), .normal = {0, 0, up ? 1 : -1}};
+    }
+
+  private:
+    double thickness_;
+};
+
 /// Mean of max(cosine, 0) over the points of a ball whose normal is at an angle with cosine `away` from one at which
 /// the light falls with this cosine.
 double mean_on_circle(double cosine, double away)
@@ -86,6 +105,31 @@ TEST(Preintegrated, BallIsThatOfTheWalk)
             if (turn > .02) {
                 EXPECT_LT(worst, .5 * plain) << radius_mm << ' ' << c;
             }
+        }
+    }
+}
+
+// Light from all around falls on both sides of a slab.
+TEST(Preintegrated, SlabInTheOpenIsThatOfTheWalk)
+{
+    constexpr int walks = 30'000;
+    const reference::AlbedoTable table(0, 1);
+    const base::Color albedo{.7, .5, .3};
+    const reference::Medium medium =
+        reference::medium_of(base::Color::all(1000), table.single_of(albedo), {}); // 1 mm between scatterings
+    for (const double thickness_mm : {.5, 1., 2., 3., 4., 6., 9., 15.}) {
+        base::Color walked;
+        for (int i = 0; i < walks; ++i)
+            walked += reference::random_walk(medium, Slab(1e-3 * thickness_mm), {0, 0, 0}, {0, 0, 1},
+                                             reference::Random::mixed(std::uint64_t(i)))
+                          .reflected /
+                      walks;
+        for (int c = 0; c < 3; ++c) {
+            const double width = optics::diffusion_width(albedo[c], 1);
+            const double ours = albedo[c] * (1 + optics::surroundings_passed(albedo[c], thickness_mm, width));
+            fmt::print("slab of {} mm, albedo {}: {:.4f}, walked {:.4f}\n", thickness_mm, albedo[c], ours,
+                       walked[c]);
+            EXPECT_NEAR(ours, walked[c], .014) << thickness_mm << ' ' << c;
         }
     }
 }

@@ -23,6 +23,7 @@ CONSTANT FORMULA_SHADE = 10;           // a = position, b = to viewer, c = albed
 CONSTANT FORMULA_VISIBILITY = 11;       // number = open, a = albedo
 CONSTANT FORMULA_AMBIENT_SPECULAR = 12; // number = cosine -> x
 CONSTANT FORMULA_SPECULAR_OCCLUSION = 13; // number = open, a.x = cosine -> x; a.y = cosine of above_horizon() -> y, of bounced_share() -> z
+CONSTANT FORMULA_SURROUNDINGS_LEFT = 14; // a = albedo, b = seen, transport, curvature, thinness
 
 struct ShadingCase
 {
@@ -32,6 +33,7 @@ struct ShadingCase
     uint specular;     // model, FORMULA_SHADE only
     uint transport;    // FORMULA_SHADE only, as what follows
     vec2 curvature;
+    float thinness;
     float filter_m, through_m;
     vec3 smooth_normal;
     float number;

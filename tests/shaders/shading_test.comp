@@ -25,6 +25,12 @@ vec3 shade(ShadingCase c)
                                                light.direction, c.b);
 }
 
+vec3 left_of_surroundings(ShadingCase c)
+{
+    return surroundings_left(c.transport, diffuse_skin(c.transport, c.params.rho_d * c.a, c.params.scattering, c.curvature), c.b,
+                             c.thinness);
+}
+
 vec3 evaluate(ShadingCase c)
 {
     switch (c.formula)
@@ -40,6 +46,7 @@ vec3 evaluate(ShadingCase c)
     case FORMULA_NORMAL: return frame_of(c.a, vec4(c.b, c.number))[2];
     case FORMULA_BEND: return bend_to_viewer(c.a, c.b);
     case FORMULA_SHADE: return shade(c);
+    case FORMULA_SURROUNDINGS_LEFT: return left_of_surroundings(c);
     case FORMULA_VISIBILITY: return visibility(c.number, c.a);
     case FORMULA_SPECULAR_OCCLUSION: return vec3(specular_occlusion(c.number, c.a.x), above_horizon(c.a.y), bounced_share(c.number, c.a.y));
     case FORMULA_AMBIENT_SPECULAR: return vec3(ambient_specular(c.params, Finish(c.wetness, 0.0), c.number));

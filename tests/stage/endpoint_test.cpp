@@ -53,7 +53,7 @@ const scene::FittedWound& fitted_wound(const stage::Stage::Preparation& preparat
 {
     const scene::Wound& wound = preparation.scene.wounds[0];
     std::shared_ptr<const scene::FittedPhotograph> photograph;
-    while (!(photograph = preparation.loader->fitted(wound, preparation.head, name_of(wound, 0)))) {
+    while (!(photograph = preparation.loader->fitted({wound, name_of(wound, 0)}, preparation.head))) {
         preparation.loader->wait();
         preparation.loader->collect();
     }

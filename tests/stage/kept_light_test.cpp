@@ -170,10 +170,10 @@ TEST(KeptLight, ANewDayRefreshesTheWoundsTilesAlone)
     const gpu::FrameResult frame = studio.draw(studio.request(4));
     for (const char* name : {"skin", "skin light"}) {
         EXPECT_EQ(pass(frame, name).state, graph::PassState::Run) << name;
-        EXPECT_GT(pass(frame, name).refreshed, 0) << name;
-        EXPECT_LT(pass(frame, name).refreshed, .9) << name;
+        EXPECT_GT(pass(frame, name).work.refreshed, 0) << name;
+        EXPECT_LT(pass(frame, name).work.refreshed, .9) << name;
     }
-    EXPECT_LT(pass(frame, "forward").refreshed, .9);
+    EXPECT_LT(pass(frame, "forward").work.refreshed, .9);
 }
 
 TEST(KeptLight, RefreshedRegionsHoldAllThatChanges)

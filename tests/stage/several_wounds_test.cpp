@@ -142,17 +142,12 @@ TEST_F(SeveralWounds, AreAllVisibleAtTheirPositions)
     EXPECT_LT(redness(-90 * mm * 1e-3), 1.7) << "skin where no wound is";
 }
 
-TEST_F(SeveralWounds, MoreThanASceneHoldsAreRefused)
+TEST_F(SeveralWounds, WhoseOthersMissTheHeadAreRefused)
 {
     scene::Scene scene = small::scene(small::wall({.55F, .36F, .27F}));
     std::vector<Disc> discs;
     for (int i = 0; i < 8; ++i)
         discs.push_back({{40 + 70 * (i % 4), 60 + 100 * (i / 4)}, 14});
-    scene.wounds = {wound_of(discs)};
-    scene.wounds[0].place = glm::dvec3(0);
-    EXPECT_THAT(refusal(scene),
-                AllOf(HasSubstr(scene.wounds[0].photo.string()), HasSubstr("its 8 wounds"), HasSubstr("7")));
-    discs.pop_back();
     scene.wounds = {wound_of(discs)};
     scene.wounds[0].place = glm::dvec3(0);
     scene.wounds[0].width_mm = 5;

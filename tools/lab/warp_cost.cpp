@@ -34,7 +34,8 @@ struct Milliseconds
 Milliseconds run_once(stage::Renderer& renderer, const passes::WoundMaps& maps, const wound::WoundDay& today)
 {
     graph::Graph graph;
-    const passes::WoundTexture texture = passes::add_wound_texture(graph, "", maps, today);
+    const passes::WoundTexture texture =
+        passes::add_wound_texture(graph, "", maps, today, passes::pack_warps(today));
     graph.readback("color", texture.color);
     graph.readback("relief", texture.relief);
     renderer.executor.forget();

@@ -175,6 +175,7 @@ struct ShadedPoint
     // What the transports `preintegrated` and `diffused` ask for:
     std::optional<cv::Vec3d> smooth{};         // unit normal without a normal map; none: the frame's
     cv::Vec2d curvature{0, 0};                 // 1/m, of the smooth surface: mean, root mean square
+    double thinness = 0;                       // 1/m, of the part around it; 0: thick
     base::Color scattering_length_mm{0, 0, 0}; // scattering_length_mm() (transport.hpp)
 };
 /// What these transports have of a light's shadow map.

@@ -38,6 +38,11 @@ double squared(double x)
     return x * x;
 }
 
+double width_m(const ShadedPoint& point, double albedo, int channel)
+{
+    return std::max(diffusion_width(albedo, 1e-3 * point.scattering_length_mm[channel]), least_width_m);
+}
+
 base::Color spread(const Shading& shading, const ShadedPoint& point, const cv::Vec3d& to_light,
                    const cv::Vec3d& incident, double visibility, const ShadowMap& map)
 {
@@ -45,8 +50,7 @@ base::Color spread(const Shading& shading, const ShadedPoint& point, const cv::V
     base::Color sum;
     for (int c = 0; c < 3; ++c) {
         const double albedo = shading.rho_d * point.albedo[c];
-        const double width =
-            std::max(diffusion_width(albedo, 1e-3 * point.scattering_length_mm[c]), least_width_m);
+        const double width = width_m(point, albedo, c);
         const double cosine = std::lerp(facing, incident[2], detail_left(width));
         const double received = shading.transport == Transport::Diffused
                                     ? std::max(incident[2], 0.0) * visibility
@@ -130,6 +134,29 @@ double softened(double visibility, double width, double filter)
 double passed(double thickness, double width)
 {
     return std::exp(-thickness / (3 * width));
+}
+
+double surroundings_passed(double albedo, double thickness, double width)
+{
+    const double a = std::clamp(albedo, 1e-3, .99);
+    const double share = std::exp(-thickness * (1 - std::pow(a, 2.5)) / (3 * width));
+    return (1 - a * a) * share / (a * (1 + a * share));
+}
+
+base::Color surroundings_left(const Shading& shading, const ShadedPoint& point, const base::Color& seen)
+{
+    if (shading.transport != Transport::Preintegrated && shading.transport != Transport::Diffused)
+        return seen;
+    base::Color left;
+    for (int c = 0; c < 3; ++c) {
+        const double albedo = shading.rho_d * point.albedo[c], width = width_m(point, albedo, c);
+        const double gain = bend_gain(albedo, point.curvature[0] * width);
+        const double through = width > least_width_m && point.thinness > 0
+                                   ? surroundings_passed(albedo, 1 / point.thinness, width)
+                                   : 0;
+        left[c] = seen[c] * std::min(gain, 1.) + std::max(seen[c] * (gain - 1), through);
+    }
+    return left;
 }
 
 // Share of the light that leaves within PORE_WIDTH, about.

@@ -10,13 +10,15 @@
 //   1 - e^(-r/d) / 4 - 3 e^(-r/3d) / 4 of the light. In our own walk d is the diffuse albedo times the mean
 //   free path between two scatterings, within 9 % for albedos of .07 to .7. So a point's width follows from
 //   its own albedo and one length of the tissue, as in the reference.
-// - What a ball returns depends on the cosine, on d x curvature and, by a factor, on the albedo: a hyperbola,
-// fitted to
-//   random walks in balls within .023 of full light up to d x curvature .1 (a nose's tip in red light is at
-//   .05). Penner wraps the profile of a plane round the ball and normalises it. That misses what a convex
-//   body returns more than a plane, since light that would go deep comes out at the other side: 12 to 20 % at
-//   .05.
-// - A slab passes e^(-t/3d) of the light.
+// - What a ball returns depends on the cosine, on d x curvature and, by a factor, on the albedo: a hyperbola, fitted to
+//   random walks in balls within .023 of full light up to d x curvature .1 (a nose's tip in red light is at .05).
+//   Penner wraps the profile of a plane round the ball and normalises it. That misses what a convex body returns
+//   more than a plane, since light that would go deep comes out at the other side: 12 to 20 % at .05.
+// - A slab passes e^(-t/3d) of a lamp's light.
+// - Of light from all around, a slab of thickness t returns and passes to a side together (A + e) / (1 + A e), where a half
+//   space returns the albedo A: two fluxes (Kubelka & Munk 1931), e = e^(-t (1 - A^2.5) / 3d). That is everything at t = 0
+//   and A for a thick slab, and between them that of random walks within .014. (Where light scatters often it reaches
+//   deeper than 3d: hence A^2.5, a fit.)
 //
 // `diffused` (E. d'Eon, D. Luebke, E. Enderton 2007, "Efficient rendering of human skin"; P. Christensen, B.
 // Burley 2015, "Approximate reflectance profiles for efficient subsurface scattering") takes the light that a
@@ -64,6 +66,14 @@ double softened(double visibility, double width, double filter);
 
 /// Share of the light that passes tissue of this thickness; in the unit of the width.
 double passed(double thickness, double width);
+
+/// Of even light from all around: what comes through a slab that it lights on both sides, beyond what a half space returns,
+/// over that. In the unit of the width.
+double surroundings_passed(double albedo, double thickness, double width);
+
+/// What leaves of the surroundings' even light, over it and the albedo. `seen`: share of it that reaches the point. What
+/// bends much is also thin: of what a bend adds (bend_gain()) and what passes, the larger counts.
+base::Color surroundings_left(const Shading& shading, const ShadedPoint& point, const base::Color& seen);
 
 /// Share of a normal map's detail that is left after diffusion. Metres.
 double detail_left(double width_m);
