@@ -12,7 +12,7 @@ namespace head {
 namespace {
 
 // In half widths of the patch.
-constexpr double tile_reach = 1.24;   // from the patch's centre to the tile's edge
+constexpr double usual_tile_reach = 1.24; // from the patch's centre to the tile's edge
 constexpr double deepest_margin = 2.; // height of margin triangles over the patch's plane, or depth under it
 
 constexpr double least_facing_home = .2,
@@ -21,6 +21,14 @@ constexpr double wound_density = 2;         // relative to the base tile
 constexpr double border = 1;                // units, in the tile, without home triangles
 constexpr std::uint32_t wound_grain = 4, narrowest_wound = 16, widest_wound = 160; // units
 constexpr std::uint32_t most_height = 1024; // units: images of at most 16384 texels
+
+/// Half widths from the patch's centre to the tile's edge. Beside a small patch there is room for a triangle
+/// of a usual mesh: one that sticks out of the tile has no place on the atlas.
+double tile_reach(const Anchor& anchor)
+{
+    constexpr double least_margin_m = .0045;
+    return std::max(usual_tile_reach, 1 + least_margin_m / anchor.half_width_m);
+}
 
 /// A triangle around an anchor.
 struct Projected
@@ -64,7 +72,8 @@ std::vector<Projected> triangles_around(const Model& model, const BaseAtlas& bas
     std::vector<Projected> found;
     const glm::vec3 centre(anchor.centre), right(anchor.right), down(anchor.down), normal(anchor.normal);
     const auto half = float(anchor.half_width_m);
-    const float reach_m = half * float(tile_reach * 1.0001), depth_m = half * float(deepest_margin * 1.0001);
+    const double edge = tile_reach(anchor);
+    const float reach_m = half * float(edge * 1.0001), depth_m = half * float(deepest_margin * 1.0001);
     for (std::uint32_t n = 0; n < base.bounds.size(); ++n) {
         const glm::vec4& ball = base.bounds[n];
         const glm::vec3 d = glm::vec3(ball) - centre;
@@ -75,8 +84,8 @@ std::vector<Projected> triangles_around(const Model& model, const BaseAtlas& bas
         const Projected p = project(model, anchor, *places[n], n);
         const glm::dvec3 low = glm::min(glm::min(p.at[0], p.at[1]), p.at[2]),
                          high = glm::max(glm::max(p.at[0], p.at[1]), p.at[2]);
-        if (p.facing > least_facing_margin && low.x < tile_reach && high.x > -tile_reach &&
-            low.y < tile_reach && high.y > -tile_reach && low.z < deepest_margin && high.z > -deepest_margin)
+        if (p.facing > least_facing_margin && low.x < edge && high.x > -edge && low.y < edge &&
+            high.y > -edge && low.z < deepest_margin && high.z > -deepest_margin)
             found.push_back(p);
     }
     std::ranges::stable_sort(found, std::ranges::greater(), &Projected::height);
@@ -84,7 +93,7 @@ std::vector<Projected> triangles_around(const Model& model, const BaseAtlas& bas
 }
 
 /// Units; 0 if no triangle can be at home in the tile.
-std::uint32_t side_of_tile(std::span<const Projected> around, double half_width_m)
+std::uint32_t side_of_tile(std::span<const Projected> around, const Anchor& anchor)
 {
     std::vector<Weighted> densities;
     for (const Projected& p : around)
@@ -92,28 +101,29 @@ std::uint32_t side_of_tile(std::span<const Projected> around, double half_width_
             densities.push_back({p.density, p.area});
     if (densities.empty())
         return 0;
-    const double units =
-        2 * tile_reach * half_width_m * wound_density * weighted_quantile(std::move(densities), .5);
+    const double units = 2 * tile_reach(anchor) * anchor.half_width_m * wound_density *
+                         weighted_quantile(std::move(densities), .5);
     return std::clamp(std::uint32_t(std::ceil(std::min(units, 1e4) / wound_grain)) * wound_grain,
                       narrowest_wound, widest_wound);
 }
 
 /// A wound's tile before it has its place: coordinates start at the tile's corner. `taken`: by number.
-AtlasTile wound_tile(std::span<const Projected> around, std::uint32_t side, std::vector<std::uint8_t>& taken)
+AtlasTile wound_tile(std::span<const Projected> around, double edge, std::uint32_t side,
+                     std::vector<std::uint8_t>& taken)
 {
     AtlasTile tile;
     if (side == 0)
         return tile;
-    const double units = side / (2 * tile_reach), inside = tile_reach - border / units;
+    const double units = side / (2 * edge), inside = edge - border / units;
     const auto placed = [&](const Projected& p) {
         AtlasTriangle triangle{p.first, {}};
         for (std::size_t k = 0; k < 3; ++k)
-            triangle.at[k] = glm::vec2((glm::dvec2(p.at[k]) + tile_reach) * units);
+            triangle.at[k] = glm::vec2((glm::dvec2(p.at[k]) + edge) * units);
         return triangle;
     };
     Box2 box;
-    box.add(glm::dvec2(-tile_reach));
-    box.add(glm::dvec2(tile_reach));
+    box.add(glm::dvec2(-edge));
+    box.add(glm::dvec2(edge));
     FlatLayer layer(box, around.size());
     std::vector<Weighted> densities;
     for (const Projected& p : around) {
@@ -200,7 +210,7 @@ Atlas with_wounds(const Model& model, const BaseAtlas& base, std::span<const Anc
     std::vector<std::uint32_t> sides;
     for (const Anchor& anchor : anchors) {
         around.push_back(triangles_around(model, base, places, anchor));
-        sides.push_back(side_of_tile(around.back(), anchor.half_width_m));
+        sides.push_back(side_of_tile(around.back(), anchor));
     }
     std::vector<glm::uvec2> corners;
     Atlas atlas{base.atlas.size, {}, {}, base.atlas.left_out, base.atlas.notes};
@@ -210,7 +220,7 @@ Atlas with_wounds(const Model& model, const BaseAtlas& base, std::span<const Anc
             side = std::max(std::min(side, narrowest_wound), side * 3 / 4 / wound_grain * wound_grain);
     std::vector<std::uint8_t> taken(base.bounds.size(), 0);
     for (std::size_t i = 0; i < anchors.size(); ++i) {
-        atlas.wounds.push_back(wound_tile(around[i], sides[i], taken));
+        atlas.wounds.push_back(wound_tile(around[i], tile_reach(anchors[i]), sides[i], taken));
         move_tile(atlas.wounds.back(), corners[i]);
     }
     add_base_tiles(atlas, base.atlas, taken);

@@ -69,9 +69,10 @@ std::vector<std::uint32_t> atlas_materials(const Model& model);
 BaseAtlas unwrap(const Model& model, std::span<const std::uint32_t> materials);
 
 /// Adds a tile for each anchor: the planar projection of its patch and of a margin of 12 % of the patch's
-/// width on each side. The triangles at home there lie wholly in the tile, face the anchor and are within
-/// Anchor::reach; of two that overlap in the projection, the one nearer to the viewer is at home there. Where
-/// wounds overlap, the earlier comes first. When the tiles need too much space together, they become coarser.
+/// width, at least 4.5 mm, on each side. The triangles at home there lie wholly in the tile, face the anchor
+/// and are within Anchor::reach; of two that overlap in the projection, the one nearer to the viewer is at
+/// home there. Where wounds overlap, the earlier comes first. When the tiles need too much space together,
+/// they become coarser.
 Atlas with_wounds(const Model& model, const BaseAtlas& base, std::span<const Anchor> anchors);
 
 /// The width of a texel on the skin, m: the median of the coarsest material. 0 for an empty atlas.

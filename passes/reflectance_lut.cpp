@@ -31,7 +31,16 @@ std::vector<shared::mat3> band_weights(std::size_t channels)
     return bands;
 }
 
-void append(LutTissue& tissue, const optics::Layer& layer)
+/// The arrays of a LutTissue.
+struct Rows
+{
+    std::vector<shared::LutLayer> layers;
+    std::vector<shared::LutBand> bands;
+    std::vector<shared::mat3> weights;
+    std::vector<shared::LutDay> days;
+};
+
+void append(Rows& tissue, const optics::Layer& layer)
 {
     constexpr double thickest_mm = 1e9; // instead of infinity, which would give inf / inf
     tissue.layers.push_back({.g = static_cast<float>(layer.g),
@@ -46,7 +55,7 @@ void append(LutTissue& tissue, const optics::Layer& layer)
 LutTissue lut_tissue(std::span<const optics::TissueDay> rows, double last_day)
 {
     assert(!rows.empty());
-    LutTissue result;
+    Rows result;
     result.weights = band_weights(rows.front().intact.channels());
     for (const optics::TissueDay& day : rows) {
         assert(day.intact.layers.size() == rows.front().intact.layers.size());
@@ -57,13 +66,18 @@ LutTissue lut_tissue(std::span<const optics::TissueDay> rows, double last_day)
         result.days.push_back({static_cast<float>(day.missing_ratio), static_cast<float>(day.regrown_ratio)});
     }
     const optics::SkinLayers& skin = rows.front().intact;
-    result.parameters = {.axes = {.deepest_mm = static_cast<float>(deepest_injury_mm(skin)),
-                                  .last_day = static_cast<float>(last_day)},
-                         .n_above = static_cast<float>(skin.n_above),
-                         .n_below = static_cast<float>(skin.n_below),
-                         .layers_per_day = static_cast<shared::uint>(skin.layers.size() + 2),
-                         .bands = static_cast<shared::uint>(result.weights.size())};
-    return result;
+    return {.layers = graph::Bytes::of(result.layers),
+            .bands = graph::Bytes::of(result.bands),
+            .weights = graph::Bytes::of(result.weights),
+            .days = graph::Bytes::of(result.days),
+            .rows = static_cast<std::uint32_t>(result.days.size()),
+            .parameters = {.axes = {.deepest_mm = static_cast<float>(deepest_injury_mm(skin)),
+                                    .last_day = static_cast<float>(last_day)},
+                           .n_above = static_cast<float>(skin.n_above),
+                           .n_below = static_cast<float>(skin.n_below),
+                           .layers_per_day = static_cast<shared::uint>(skin.layers.size() + 2),
+                           .bands = static_cast<shared::uint>(result.weights.size())},
+            .table = nullptr};
 }
 
 ReflectanceLut add_reflectance_lut(graph::Graph& graph, std::string_view name, const LutTissue& tissue,
@@ -74,17 +88,17 @@ ReflectanceLut add_reflectance_lut(graph::Graph& graph, std::string_view name, c
         return {graph.import(name, *tissue.table)};
     }
     assert(model <= optics::ReflectanceModel::Calibrated);
-    const auto height = static_cast<std::uint32_t>(tissue.days.size());
+    const std::uint32_t height = tissue.rows;
     // Half floats: every device can filter them linearly. Their relative error, 2.4e-4, is below the error of
     // the table itself.
     const graph::ImageId lut = graph.image(name, {width, height, VK_FORMAT_R16G16B16A16_SFLOAT});
     graph::ComputePass& pass = graph.compute(name, "reflectance_lut.comp");
     pass.constant("MODEL", static_cast<std::int32_t>(model));
     pass.uniform("Parameters", tissue.parameters);
-    pass.buffer("Layers", std::span(tissue.layers));
-    pass.buffer("Bands", std::span(tissue.bands));
-    pass.buffer("Weights", std::span(tissue.weights));
-    pass.buffer("Days", std::span(tissue.days));
+    pass.buffer("Layers", tissue.layers);
+    pass.buffer("Bands", tissue.bands);
+    pass.buffer("Weights", tissue.weights);
+    pass.buffer("Days", tissue.days);
     pass.store("lut_out", lut);
     pass.dispatch(width, height);
     return {lut};

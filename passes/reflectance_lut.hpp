@@ -18,10 +18,11 @@ namespace passes {
 /// it.
 struct LutTissue
 {
-    std::vector<shared::LutLayer> layers; // grouped by row
-    std::vector<shared::LutBand> bands;   // grouped by layer
-    std::vector<shared::mat3> weights;    // per band: its channels -> linear RGB
-    std::vector<shared::LutDay> days;     // one per row
+    graph::Bytes layers;  // shared::LutLayer, grouped by row
+    graph::Bytes bands;   // shared::LutBand, grouped by layer
+    graph::Bytes weights; // shared::mat3, per band: its channels -> linear RGB
+    graph::Bytes days;    // shared::LutDay, one per row
+    std::uint32_t rows = 0;
     shared::LutParameters parameters;
     /// The finished table, for a model that the shader does not implement (wound/reflectance_table.hpp).
     /// None: a compute pass bakes the table.

@@ -1,5 +1,6 @@
 #include "stage/cost.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -42,25 +43,30 @@ json measure_cost(const gpu::Device& device, const graph::ShaderLibrary& library
          shading_case("moving_day", stage, own, 1)},
         {.warm_up = 1, .counted = 0, .timed = rounds});
 
+    const auto named = [&](std::string_view name) -> const Measurement& {
+        return *std::ranges::find(measured, name, &Measurement::name);
+    };
+    const auto forward_ms = [&](std::string_view name) {
+        return base::median(pass_ms(named(name), "forward"));
+    };
     json result{{"rounds", rounds}, {"variants", json::object()}};
-    std::vector<double> forward;
-    for (std::size_t i = 0; i < 3; ++i) {
-        forward.push_back(base::median(pass_ms(measured[i], "forward")));
-        result["variants"][measured[i].name] = {{"forward_ms", forward[i]},
-                                                {"frame_ms", base::median(wall_ms(measured[i]))}};
-    }
-    const double still = base::median(wall_ms(measured[3])), moving = base::median(wall_ms(measured[4]));
-    const double transported = base::median(pass_ms(measured[3], "forward"));
-    result["transport_over_lambert"] = transported / forward[1];
-    result["translucency_over_none"] = forward[0] / forward[1];
-    result["everything_over_ward_lambert"] = forward[0] / forward[2];
+    for (const char* variant : {"everything", "without_translucency", "ward_lambert_only"})
+        result["variants"][variant] = {{"forward_ms", forward_ms(variant)},
+                                       {"frame_ms", base::median(wall_ms(named(variant)))}};
+    const double everything = forward_ms("everything"), opaque_ms = forward_ms("without_translucency"),
+                 plain_ms = forward_ms("ward_lambert_only"), transported = forward_ms("unchanged");
+    const double still = base::median(wall_ms(named("unchanged"))),
+                 moving = base::median(wall_ms(named("moving_day")));
+    result["transport_over_lambert"] = transported / opaque_ms;
+    result["translucency_over_none"] = everything / opaque_ms;
+    result["everything_over_ward_lambert"] = everything / plain_ms;
     result["unchanged_frame_ms"] = still;
     result["moving_day_over_unchanged"] = moving / still;
     lines.push_back(fmt::format("forward pass, median of {} frames: {:.1f} ms with all terms, {:.2f} x the "
                                 "time without translucency, {:.2f} x the time with Ward and Lambert only",
-                                rounds, forward[0], forward[0] / forward[1], forward[0] / forward[2]));
+                                rounds, everything, everything / opaque_ms, everything / plain_ms));
     lines.push_back(fmt::format("forward pass with the scene's transport {:.1f} ms, {:.2f} x that of lambert",
-                                transported, transported / forward[1]));
+                                transported, transported / opaque_ms));
     lines.push_back(fmt::format("unchanged frame {:.1f} ms; a frame on which the day moved {:.2f} x that",
                                 still, moving / still));
     return result;

@@ -292,6 +292,8 @@ PreparedWound prepare_patch(Patch patch, const Preparation& preparation, bool ke
                                : spacing_from_curvature(wound.border, wound.centroid);
     wound.control_points = control_points(wound.border, wound.centroid, spacing);
     wound.flow = prepare_flow(wound.border, wound.control_points, wound.centroid);
+    // The grid's error grows with the square of its cells: so it stays the same in texels.
+    wound.flow.grid_share = std::sqrt(std::min(1., wound.patch.mask.cols / 512.));
     return wound;
 }
 

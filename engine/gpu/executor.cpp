@@ -141,7 +141,7 @@ FrameToken Executor::submit(const graph::Graph& graph)
     frame.slot.wait();
     frame.kept = graph.kept; // releases the resources of the slot's last frame
     frame.result = {};
-    frame.result.plan = graph::schedule(graph, memory_);
+    frame.result.plan = graph::schedule_checked(graph, memory_);
     frame.start = start;
     match_images(graph, frame.result.plan);
     const std::vector<BoundImage> bound = bind_images(graph);

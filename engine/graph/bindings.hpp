@@ -34,7 +34,7 @@ enum class Sampler : std::uint8_t
 class Bytes
 {
   public:
-    explicit Bytes(std::span<const std::byte> value);
+    explicit Bytes(std::span<const std::byte> value = {});
     template <std::ranges::contiguous_range Range>
     static Bytes of(const Range& values)
     {

@@ -295,6 +295,11 @@ class Scheduler
 Plan schedule(const Graph& graph, const Memory& memory)
 {
     throw_if_any(check_graph(graph));
+    return schedule_checked(graph, memory);
+}
+
+Plan schedule_checked(const Graph& graph, const Memory& memory)
+{
     return Scheduler(graph, memory).run();
 }
 

@@ -76,6 +76,8 @@ struct Plan
 
 /// Throws std::logic_error when the declaration is wrong; see graph_check.hpp.
 Plan schedule(const Graph& graph, const Memory& memory);
+/// The same of a graph in which check_graph() has found no mistake.
+Plan schedule_checked(const Graph& graph, const Memory& memory);
 
 const char* name_of(PassState state);
 

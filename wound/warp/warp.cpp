@@ -161,10 +161,10 @@ std::vector<ThinPlate> composed_steps(const ContractionFlow& flow, double scale)
     return steps;
 }
 
-void fill_grid(Warp& warp, const std::vector<ThinPlate>& steps)
+void fill_grid(Warp& warp, const std::vector<ThinPlate>& steps, double share)
 {
     const double epsilon = grid_epsilon(warp.scale);
-    const int half = half_nodes(warp.scale);
+    const int half = int(std::lround(share * half_nodes(warp.scale)));
     const int count = 2 * half + 1;
     for (int i = 0; i < count; ++i)
         warp.nodes.emplace_back(node_position(i, half, warp.centroid.x, epsilon),
@@ -232,7 +232,7 @@ Warp make_warp(const ContractionFlow& flow, double area_ratio, WarpModel model)
         warp.radii = flow.radii;
         break;
     case WarpModel::Grid:
-        fill_grid(warp, composed_steps(flow, warp.scale));
+        fill_grid(warp, composed_steps(flow, warp.scale), flow.grid_share);
         break;
     case WarpModel::Dense:
         warp.steps = {contraction_step(flow.control_points, flow.centroid, warp.scale, 1)};

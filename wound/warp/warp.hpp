@@ -62,6 +62,7 @@ struct ContractionFlow
     std::vector<cv::Point2d> control_points;
     std::vector<double> radii;
     std::vector<ThinPlate> steps; // steps[k] maps points at scale step_scale^(k+1) back to step_scale^k
+    double grid_share = 1; // of the usual number of a grid's nodes on a side: a coarser patch needs fewer
 };
 
 /// `border` and `control_points` are in patch coordinates within (-1,1). A control point within half a texel
