@@ -20,6 +20,8 @@ void add_ward_albedo(CLI::App& program);
 /// The tables of docs/scene.md, from scene/field_table.hpp.
 void add_scene_fields(CLI::App& program);
 
+/// What each term of the shading costs: docs/shading.md.
+void add_terms(CLI::App& program);
 /// Distance from the path-traced reference: docs/truth.md.
 void add_truth(CLI::App& program);
 

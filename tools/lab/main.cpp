@@ -14,6 +14,7 @@ int main(int argc, char** argv)
     lab::add_ward_albedo(program);
     lab::add_warps(program);
     lab::add_scene_fields(program);
+    lab::add_terms(program);
     lab::add_truth(program);
     return base::run_program(program, argc, argv);
 }
