@@ -136,6 +136,10 @@ Stage::Set Stage::make(const scene::Scene& scene) const
         set.loaded.notes.push_back(fmt::format(
             "scene: /wounds: more than {0} wounds reach the same skin; there the {0} nearest ones are drawn",
             shared::WOUNDS_HERE));
+    if (scene.shading.transport == optics::Transport::Diffused && passes::kept_materials(model).empty())
+        set.loaded.notes.push_back("scene: /head: it has no skin that is opaque and seen from one side: "
+                                   "light does not spread over it "
+                                   "(shading.transport is drawn as preintegrated)");
     return set;
 }
 
