@@ -25,7 +25,7 @@ TEST(ShaderLayout, Frame)
                              CICATRIX_MEMBER(WoundFrame, bed_recovery),
                              CICATRIX_MEMBER(WoundFrame, border_recovery), CICATRIX_MEMBER(WoundFrame, lut),
                              CICATRIX_MEMBER(WoundFrame, epithelium), CICATRIX_MEMBER(WoundFrame, pore_loss),
-                             CICATRIX_MEMBER(WoundFrame, sheen)});
+                             CICATRIX_MEMBER(WoundFrame, sheen), CICATRIX_MEMBER(WoundFrame, number)});
 }
 
 TEST(ShaderLayout, Part)
@@ -33,8 +33,8 @@ TEST(ShaderLayout, Part)
     gpu_test::expect_layout("forward.frag", "Part", sizeof(Part),
                             {CICATRIX_MEMBER(Part, albedo_factor), CICATRIX_MEMBER(Part, normal_scale),
                              CICATRIX_MEMBER(Part, specular), CICATRIX_MEMBER(Part, slope),
-                             CICATRIX_MEMBER(Part, grazing),
-                             CICATRIX_MEMBER(Part, translucency), CICATRIX_MEMBER(Part, scattering)});
+                             CICATRIX_MEMBER(Part, grazing), CICATRIX_MEMBER(Part, translucency),
+                             CICATRIX_MEMBER(Part, scattering)});
 }
 
 TEST(ShaderLayout, ReflectanceLut)
