@@ -6,6 +6,7 @@
 
 #include "base/input_error.hpp"
 #include "scene/file.hpp"
+#include "scene/scene.hpp"
 
 namespace scene {
 

@@ -3,13 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "wound/optics/reflectance.hpp"
+#include "wound/photo/segmentation.hpp"
 
 namespace CLI {
 class App;
 }
 
 namespace scene {
+struct Scene;
 
 /// --seed X,Y and --rect X,Y,W,H: where in a photograph the wound is.
 struct HintOptions

@@ -4,13 +4,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <glm/glm.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "wound/photo/segmentation.hpp"
 
 namespace scene {
+struct Scene;
 
 /// Version of the scene format. A file may state it as "version"; files of later versions are rejected.
 inline constexpr int scene_version = 1;

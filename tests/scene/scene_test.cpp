@@ -7,6 +7,7 @@
 #include "base/input_error.hpp"
 #include "scene/command_line.hpp"
 #include "scene/file.hpp"
+#include "scene/scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace {
