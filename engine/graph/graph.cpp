@@ -86,7 +86,7 @@ ImageId Graph::image(std::string_view name, const ImageDesc& desc)
 
 ImageId Graph::import(std::string_view name, const ExternalImage& external)
 {
-    for (std::uint32_t i = 0; i < images.size(); ++i)
+    for (auto i = static_cast<std::uint32_t>(images.size()); i-- > 0;) // most often one of the latest
         if (images[i].external && images[i].external->content == external.content &&
             images[i].name == name_prefix_ + std::string(name))
             return {i};

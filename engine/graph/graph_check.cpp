@@ -288,11 +288,21 @@ class GraphChecker
     std::vector<std::string> lines_;
 };
 
-void add_sampled(std::vector<ImageAccess>& list, const Bindings& bindings, Usage usage)
+/// Appends each image once: many draws may sample the same ones. `seen`: by image.
+void add_sampled(std::vector<ImageAccess>& list, std::vector<bool>& seen, const Bindings& bindings,
+                 Usage usage)
 {
+    constexpr std::uint32_t most = 1 << 16; // beyond it an id is a mistake, which the check reports
     for (const Bindings::Sampled& sampled : bindings.sampled)
-        for (const ImageId id : sampled.images)
+        for (const ImageId id : sampled.images) {
+            if (id.index < most) {
+                seen.resize(std::max<std::size_t>(seen.size(), id.index + 1));
+                if (seen[id.index])
+                    continue;
+                seen[id.index] = true;
+            }
             list.push_back({id, usage});
+        }
 }
 
 } // namespace
@@ -300,16 +310,17 @@ void add_sampled(std::vector<ImageAccess>& list, const Bindings& bindings, Usage
 std::vector<ImageAccess> accesses(const Pass& pass)
 {
     std::vector<ImageAccess> list;
+    std::vector<bool> seen;
     if (const auto* compute = std::get_if<ComputePass>(&pass)) {
-        add_sampled(list, *compute, Usage::SampledInCompute);
+        add_sampled(list, seen, *compute, Usage::SampledInCompute);
         for (const Bindings::Stored& stored : compute->stored)
             list.push_back({stored.image, Usage::Stored});
         return list;
     }
     const auto& raster = std::get<RasterPass>(pass);
-    add_sampled(list, raster, Usage::SampledInRaster);
+    add_sampled(list, seen, raster, Usage::SampledInRaster);
     for (const Draw& draw : raster.draws)
-        add_sampled(list, draw, Usage::SampledInRaster);
+        add_sampled(list, seen, draw, Usage::SampledInRaster);
     for (const RasterPass::ColorTarget& target : raster.colors) {
         list.push_back({target.image, Usage::Color});
         if (target.resolve.valid())

@@ -59,13 +59,19 @@ std::vector<KeyPart> declared_key(const Pass& pass)
     return key;
 }
 
-/// Shader name, filter and number of images of each sampled binding.
-std::uint64_t hash_of_samplers(const Pass& pass)
+/// Shader name, filter and images of each sampled binding; the images by their places in the pass's list.
+std::uint64_t hash_of_samplers(const Pass& pass, std::span<const ImageAccess> accesses, std::size_t images)
 {
+    std::vector<std::uint32_t> places(images);
+    for (std::uint32_t i = 0; i < accesses.size(); ++i)
+        places[accesses[i].image.index] = i;
     base::Hash hash;
     const auto add = [&](const Bindings& bindings) {
-        for (const Bindings::Sampled& sampled : bindings.sampled)
+        for (const Bindings::Sampled& sampled : bindings.sampled) {
             hash.add(sampled.name).add(sampled.sampler).add(sampled.images.size());
+            for (const ImageId id : sampled.images)
+                hash.add(places[id.index]);
+        }
     };
     if (const auto* raster = std::get_if<RasterPass>(&pass)) {
         add(*raster);
@@ -127,7 +133,7 @@ std::vector<KeyPart> pass_key(const Graph& graph, const Pass& pass, std::span<co
         if (const auto found = confined.find(access.image.index); found != confined.end())
             confine(key.back(), *found->second);
     }
-    key.push_back({"samplers", hash_of_samplers(pass)});
+    key.push_back({"samplers", hash_of_samplers(pass, accesses, graph.images.size())});
     return key;
 }
 
