@@ -114,13 +114,19 @@ TEST_F(Endpoint, ClosureRestoresTheSkinBeforeTheWound)
 {
     scene::Scene scene = small::scene(small::head());
     scene.wounds[0].healing.model = wound::HealingModel::Contraction;
-    scene::Scene unhurt = scene;
-    unhurt.wounds.clear();
-    const stage::Stage stage(gpu_test::device(), stage::Stage::prepare(scene));
-    const stage::Stage bare(gpu_test::device(), stage::Stage::prepare(unhurt));
-    const cv::Mat4b without = picture(bare, 365);
-    EXPECT_LE(cv::norm(picture(stage, 365), without, cv::NORM_INF), 1);
-    EXPECT_GT(cv::norm(picture(stage, 0), without, cv::NORM_INF), 40) << "the wound must be visible on day 0";
+    for (const auto transport : {optics::Transport::Preintegrated, optics::Transport::Diffused}) {
+        scene.shading.transport = transport;
+        scene::Scene unhurt = scene;
+        unhurt.wounds.clear();
+        const stage::Stage stage(gpu_test::device(), stage::Stage::prepare(scene));
+        const stage::Stage bare(gpu_test::device(), stage::Stage::prepare(unhurt));
+        const cv::Mat4b without = picture(bare, 365);
+        // Around the wound light spreads on finer texels than elsewhere.
+        EXPECT_LE(cv::norm(picture(stage, 365), without, cv::NORM_INF),
+                  transport == optics::Transport::Diffused ? 3 : 1);
+        EXPECT_GT(cv::norm(picture(stage, 0), without, cv::NORM_INF), 40)
+            << "the wound must be visible on day 0";
+    }
 }
 
 // No pixel may jump by more than its day-to-day change around closure. A jump is the part of a change that

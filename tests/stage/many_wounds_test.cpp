@@ -219,7 +219,7 @@ TEST(WoundSets, HoldTheWoundsWhosePatchesReachATriangle)
     };
     EXPECT_THAT(set_at(.05), ElementsAre(9)) << "beside the small ones";
     EXPECT_THAT(set_at(.02 + .006), testing::Contains(8u));
-    EXPECT_THAT(set_at(-.008), ElementsAre(0, 1, 2, 3, 4, 5, 9)) << "the nearest, in half widths";
+    EXPECT_THAT(set_at(-.008), ElementsAre(0, 1, 2, 3, 4, 9)) << "the nearest, in half widths";
     EXPECT_THAT(passes::drawn_near({3, 5}, {0, 0, 0}, reaches), ElementsAre(3, 5));
 }
 
