@@ -44,8 +44,7 @@ class Surfacing
         for (const AtlasTile& tile : tiles) {
             if (tile.home.empty())
                 continue;
-            SurfacePiece piece{tile.corner, tile.size, tile.units_per_m,
-                               std::uint32_t(surface.indices.size())};
+            SurfacePiece piece{tile.corner, tile.size, std::uint32_t(surface.indices.size())};
             if (skirts)
                 add_skirts(tile);
             piece.skirts = std::uint32_t(surface.indices.size()) - piece.first_index;

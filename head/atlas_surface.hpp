@@ -23,7 +23,6 @@ struct SurfaceVertex
 struct SurfacePiece
 {
     glm::uvec2 corner{0}, size{0}; // units, of the tile
-    double units_per_m = 0;
     std::uint32_t first_index = 0, skirts = 0, triangles = 0; // numbers of indices: the skirts come first
 };
 

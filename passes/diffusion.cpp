@@ -10,6 +10,7 @@ namespace passes {
 namespace {
 
 constexpr double narrow_texels = 2; // of a skirt, for filters
+constexpr double wide_texels = 16;  // for light that spreads: as far as the taps go where a texel is as wide
 
 shared::Diffusion diffusion_params(const optics::Shading& shading, const base::Color& scattering_length_mm)
 {
@@ -22,8 +23,7 @@ shared::Diffusion diffusion_params(const optics::Shading& shading, const base::C
 
 /// Draws the skin's surface: first the wide skirts, then the narrow ones, which filters at the border of
 /// their chart need, then the skin. All of one kind before the next, as charts of other tiles may be near.
-void draw_surface(graph::RasterPass& pass, std::string_view shader, const Skin& skin, double scale,
-                  double reach_m)
+void draw_surface(graph::RasterPass& pass, std::string_view shader, const Skin& skin, double scale)
 {
     for (const int layer : {0, 1, 2})
         for (const head::SurfacePiece& piece : skin.surface) {
@@ -35,8 +35,7 @@ void draw_surface(graph::RasterPass& pass, std::string_view shader, const Skin& 
             draw.first_index = piece.first_index + (layer == 2 ? piece.skirts : 0);
             draw.index_count = count;
             draw.cull_back_faces = false; // charts may be mirrored
-            const double narrow = narrow_texels / scale;
-            const double width = layer == 0 ? std::max(reach_m * piece.units_per_m, narrow) : narrow;
+            const double width = (layer == 0 ? wide_texels : narrow_texels) / scale;
             draw.uniform("Surface_",
                          shared::SurfaceDraw{.size = glm::vec2(skin.size),
                                              .skirt = layer == 2 ? 0 : float(width),
@@ -68,12 +67,12 @@ DiffusedLight add_diffusion(graph::Graph& graph, const ForwardInput& input, cons
     graph::RasterPass& place = graph.raster("skin places");
     place.color(places, {0, 0, 0, 0});
     place.color(metrics, {1, 0, 1, 1});
-    draw_surface(place, "skin_places", skin, scale, around.reach_m);
+    draw_surface(place, "skin_places", skin, scale);
 
     graph::RasterPass& gather = graph.raster("skin gathered");
     gather.color(gathered, {0, 0, 0, 0});
     gather.sample("irradiance", received.light); // filtered: a skirt's places are between texels
-    draw_surface(gather, "skin_gathered", skin, scale, around.reach_m);
+    draw_surface(gather, "skin_gathered", skin, scale);
     const graph::Region near = scaled(received.wounded, 1, 1, size); // by a filter
     gather.confine(received.light, received.wounded, near);
 

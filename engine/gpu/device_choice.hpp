@@ -26,7 +26,7 @@ struct DeviceInfo
 
 /// Required number of textures that one shader stage can sample; our shaders use at most this many.
 /// Vulkan guarantees 16.
-constexpr std::uint32_t textures_per_stage = 32;
+constexpr std::uint32_t textures_per_stage = 29;
 
 struct PhysicalDevice
 {

@@ -55,7 +55,9 @@ TEST_F(Program, CapturesAHealingWound)
         if (pass["state"] == "skipped")
             skipped.insert(pass["name"]);
     // The picture and its shadow follow the camera, which goes between the picture and the strip's close-up.
-    EXPECT_THAT(skipped, UnorderedElementsAre("wound_texture", "wound_relief", "reflectance_lut"));
+    EXPECT_THAT(skipped, UnorderedElementsAre("wound_texture", "wound_relief", "reflectance_lut",
+                                              "skin shadow", "coarse skin", "coarse skin light",
+                                              "skin places", "skin gathered", "skin diffused"));
 
     const std::filesystem::path scene = folder_.with("recorded.json", record.at("scene").dump());
     EXPECT_EQ(scene::to_json(scene::read_scene(scene)), record.at("scene"));

@@ -258,7 +258,8 @@ TEST_F(Report, TheTraceIsInOrderOnBothTracks)
     EXPECT_THAT(names.at({1, 2}), HasSubstr("software rasteriser"));
     EXPECT_EQ(gpu_events["forward"], 7 * few.timed) << "camera twice, day, both, light twice, tissue";
     EXPECT_EQ(gpu_events["wound_texture"], 2 * few.timed);
-    EXPECT_EQ(gpu_events["shadow"], 2 * few.timed) << "only when the light moves";
+    EXPECT_EQ(gpu_events["shadow"], few.timed) << "only when the light is dragged";
+    EXPECT_EQ(gpu_events["skin shadow"], few.timed) << "only when the light rests at another place";
 }
 
 TEST_F(Report, ThePageIsSelfContained)

@@ -8,6 +8,7 @@
 #include "scene/command_line.hpp"
 #include "scene/file.hpp"
 #include "scene/scene.hpp"
+#include "shaders/shared/frame.h"
 #include "tests/support/temporary_folder.hpp"
 
 namespace {
@@ -172,11 +173,15 @@ TEST_F(SceneFile, RelativePathsStartAtTheFolderOfTheScene)
 
 TEST_F(SceneFile, EachMistakeNamesFileAndField)
 {
+    std::string too_many = R"({"wounds": [{})";
+    for (std::uint32_t i = 0; i < shared::MAX_WOUNDS; ++i)
+        too_many += ",{}";
+    too_many += "]}";
     const std::pair<const char*, const char*> mistakes[] = {
         {R"({"haed": "a.glb"})", "/haed"},
         {R"({"head": 3})", "/head"},
         {R"({"wounds": {}})", "/wounds"},
-        {R"({"wounds": [{},{},{},{},{},{},{},{}]})", "/wounds"},
+        {too_many.c_str(), "/wounds"},
         {R"({"wounds": [3]})", "/wounds/0"},
         {R"({"wounds": [{}, {"widht_mm": 3}]})", "/wounds/1/widht_mm"},
         {R"({"wounds": [{"width_mm": -3}]})", "/wounds/0/width_mm"},
