@@ -27,6 +27,7 @@ scene::Scene lambert_scene()
 {
     scene::Scene scene = small::scene(small::head(), side);
     scene.wounds.clear();
+    scene.shading.transport = optics::Transport::Preintegrated; // whose shadow map follows the camera
     scene.shading.translucency = scene.shading.ward = scene.shading.normal_map = false;
     scene.shading.ambient = {0, 0, 0};
     return scene;
