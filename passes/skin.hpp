@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/color.hpp"
 #include "engine/gpu/device.hpp"
 #include "engine/gpu/mesh_buffer.hpp"
 #include "engine/graph/region.hpp"
