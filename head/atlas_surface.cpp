@@ -152,9 +152,7 @@ class Surfacing
             }
         for (const Strip& strip : strips)
             add_skirt(strip.inner, strip.outer, [&](const glm::vec2& place) {
-                const glm::vec2 sum = outward.at({place.x, place.y});
-                const float square = std::max(glm::dot(sum, sum), 1e-6f);
-                return sum * std::min(2 / square, longest_miter / std::sqrt(square));
+                return mitred(outward.at({place.x, place.y}));
             });
     }
 
@@ -204,6 +202,12 @@ class Surfacing
 };
 
 } // namespace
+
+glm::vec2 mitred(const glm::vec2& across)
+{
+    const float square = std::max(glm::dot(across, across), 1e-6f);
+    return across * std::min(2 / square, longest_miter / std::sqrt(square));
+}
 
 AtlasSurface surface_of(const Model& model, std::span<const AtlasTile> tiles, bool skirts)
 {

@@ -11,6 +11,10 @@
 
 namespace head {
 
+/// Where the outer edge of a skirt of width 1 is mitred at a border vertex. `across`: sum of the unit vectors
+/// away from the chart, across the border edges that meet there.
+glm::vec2 mitred(const glm::vec2& across);
+
 /// A vertex of a skirt moves with the skirt's width w, units: w times what is called outward is added.
 struct SurfaceVertex
 {
@@ -22,7 +26,7 @@ struct SurfaceVertex
 /// Of one tile.
 struct SurfacePiece
 {
-    glm::uvec2 corner{0}, size{0}; // units, of the tile
+    glm::uvec2 corner{0}, size{0};                            // units, of the tile
     std::uint32_t first_index = 0, skirts = 0, triangles = 0; // numbers of indices: the skirts come first
 };
 

@@ -15,7 +15,7 @@ constexpr double wide_texels = 16;  // for light that spreads: as far as the tap
 shared::Diffusion diffusion_params(const optics::Shading& shading, const base::Color& scattering_length_mm)
 {
     shared::Diffusion params{.scattering_mm = head::to_glm(shading.rho_d * scattering_length_mm)};
-    const auto taps = optics::diffusion_taps();
+    static const auto taps = optics::diffusion_taps();
     for (std::size_t k = 0; k < taps.size(); ++k)
         params.taps[k] = {head::to_glm(taps[k]), 0};
     return params;

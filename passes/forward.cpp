@@ -149,6 +149,15 @@ const HeadPart& part_of(const ForwardInput& input, std::uint32_t material)
     return *std::ranges::find(input.head.parts, material, &HeadPart::material);
 }
 
+void bind_lit(graph::Graph& graph, graph::Draw& draw, const ForwardInput& input, const HeadPart& part,
+              const WoundSet& wounds, const optics::Shading& shading)
+{
+    const shared::Part params = part_params(part, shading);
+    draw.uniform("Part_", params);
+    draw.constant("WARD", shading.glossy() && params.specular > 0);
+    bind_part(graph, draw, input.head, part, wounds, input.wounds);
+}
+
 /// Parts of the mesh whose light is computed in every pixel.
 void draw_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput& input,
                 std::span<const HeadPart> parts, const optics::Shading& shading)
@@ -161,15 +170,13 @@ void draw_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput
         draw.cull_back_faces = !part.double_sided;
         draw.blend = part.blend;
         draw.depth_write = !part.blend;
-        const shared::Part params = part_params(part, shading);
-        draw.uniform("Part_", params);
-        draw.constant("WARD", shading.glossy() && params.specular > 0);
-        bind_part(graph, draw, input.head, part, part.wounds, input.wounds);
+        bind_lit(graph, draw, input, part, part.wounds, shading);
     }
 }
 
-/// Parts of the skin whose light is computed in every pixel, but for what comes from the surroundings.
-void draw_diffused(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput& input,
+/// Skin whose light is computed in every pixel, but for what comes from the surroundings with transport
+/// `diffused`.
+void draw_lit_skin(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput& input,
                    std::span<const SkinDraw> pieces, const optics::Shading& shading)
 {
     for (const SkinDraw& piece : pieces) {
@@ -177,11 +184,7 @@ void draw_diffused(graph::Graph& graph, graph::RasterPass& pass, const ForwardIn
         draw.mesh = input.skin->mesh.get();
         draw.first_index = piece.first_index;
         draw.index_count = piece.index_count;
-        const HeadPart& part = part_of(input, piece.material);
-        const shared::Part params = part_params(part, shading);
-        draw.uniform("Part_", params);
-        draw.constant("WARD", shading.glossy() && params.specular > 0);
-        bind_part(graph, draw, input.head, part, piece.wounds, input.wounds);
+        bind_lit(graph, draw, input, part_of(input, piece.material), piece.wounds, shading);
         if (input.around) {
             draw.constant("TRANSPORT", std::uint32_t(optics::Transport::Diffused));
             draw.sample("diffused_light", input.around->light);
@@ -193,9 +196,9 @@ void draw_diffused(graph::Graph& graph, graph::RasterPass& pass, const ForwardIn
 void draw_skin(graph::RasterPass& pass, const ForwardInput& input, const SkinLight& kept,
                const optics::Shading& shading)
 {
-    for (const SkinShown& shown : kept.skin.shown) {
+    for (const SkinShown& shown : input.skin->shown) {
         graph::Draw& draw = pass.draw("skin");
-        draw.mesh = kept.skin.mesh.get();
+        draw.mesh = input.skin->mesh.get();
         draw.first_index = shown.first_index;
         draw.index_count = shown.index_count;
         const shared::Part params = part_params(part_of(input, shown.material), shading);
@@ -247,7 +250,7 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
         if (input.kept)
             draw_skin(pass, input, *input.kept, shading);
     }
-    draw_diffused(graph, pass, input, lit, shading);
+    draw_lit_skin(graph, pass, input, lit, shading);
     draw_parts(graph, pass, input, parts, shading);
     if (!parts.empty() || !lit.empty())
         prepare_parts(graph, pass, input, shading);

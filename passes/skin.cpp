@@ -19,7 +19,6 @@ constexpr double longest_side = 8192;
 // Pixels of a texel's width where the camera is nearest; a wound's texels are half as wide. Wider ones than
 // wanted are taken when the wanted ones would be too many.
 constexpr double wanted_pixels = 2, most_pixels = 4;
-constexpr float longest_miter = 2; // of a skirt, in its widths
 constexpr double usual_albedo = .5, most_diffused_texels = 1e6;
 
 struct SkinVertex
@@ -222,9 +221,8 @@ class Spreading
         }
         std::map<std::uint32_t, std::uint32_t> outer;
         for (const auto& [vertex, sum] : outward) {
-            const float square = std::max(glm::dot(sum, sum), 1e-6f);
             SkinVertex made = vertices[vertex];
-            made.outward = sum * std::min(2 / square, longest_miter / std::sqrt(square));
+            made.outward = head::mitred(sum);
             outer[vertex] = std::uint32_t(vertices.size());
             vertices.push_back(made);
         }

@@ -69,8 +69,7 @@ SkinLight add_light(graph::Graph& graph, const ForwardInput& input, const Skin& 
                    .normal = graph.image(kind + "lit skin normal", desc),
                    .gloss = graph.image(kind + "skin gloss", desc),
                    .albedo = albedo,
-                   .code = code.value_or(shared::LightCode{1}),
-                   .skin = skin};
+                   .code = code.value_or(shared::LightCode{1})};
     const glm::uvec2 corner(glm::dvec2(skin.wounded_corner) * scale),
         wounded(glm::ceil(glm::dvec2(skin.wounded_size) * scale));
     kept.wounded = {corner.x, corner.y, wounded.x, wounded.y};

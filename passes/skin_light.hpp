@@ -22,7 +22,6 @@ struct SkinLight
         gloss; // wetness, tautness, slope variance, occlusion by the wound's hollow (lib/skin_code.glsl)
     graph::ImageId albedo; // rgb: root of C of eq. (4)
     shared::LightCode code;
-    const Skin& skin;
     graph::Region wounded; // of these images: what a new day can change
     double reach_m = 0;    // how far from a wound it can change something
 };

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "shared/skin.h"
+#include "lib/on_atlas.glsl"
 
 layout(scalar, binding = 0) uniform Surface_ { SurfaceDraw draw; };
 layout(binding = 1) uniform sampler2D irradiance;
@@ -11,7 +11,7 @@ layout(location = 0) out vec4 out_light;
 
 void main()
 {
-    if (any(lessThan(gl_FragCoord.xy, draw.low)) || any(greaterThan(gl_FragCoord.xy, draw.high)))
+    if (outside_tile(draw, gl_FragCoord.xy))
         discard;
     out_light = vec4(textureLod(irradiance, v_from, 0).rgb, 1);
 }

@@ -3,7 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 // The light on the skin, for skin_diffused.comp: at its texels, and beyond the borders of charts the light that falls on
 // the skin across the seam.
-#include "shared/skin.h"
+#include "lib/on_atlas.glsl"
 
 layout(scalar, binding = 0) uniform Surface_ { SurfaceDraw draw; };
 
@@ -17,5 +17,5 @@ layout(location = 0) out vec2 v_from; // share of the atlas' size
 void main()
 {
     v_from = (from + draw.skirt * from_outward) / draw.size;
-    gl_Position = vec4((place + draw.skirt * outward) / draw.size * 2.0 - 1.0, 0.0, 1.0);
+    gl_Position = on_atlas(draw, place, outward);
 }

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "shared/skin.h"
+#include "lib/on_atlas.glsl"
 
 layout(scalar, binding = 0) uniform Surface_ { SurfaceDraw draw; };
 
@@ -12,7 +12,7 @@ layout(location = 1) out vec4 out_metric; // mm, see skin_diffused.comp
 void main()
 {
     const vec3 x = dFdx(v_position), y = dFdy(v_position);
-    if (any(lessThan(gl_FragCoord.xy, draw.low)) || any(greaterThan(gl_FragCoord.xy, draw.high)))
+    if (outside_tile(draw, gl_FragCoord.xy))
         discard;
     const float along = max(length(x), 1e-6), skew = dot(x, y) / along;
     const float across = sqrt(max(dot(y, y) - skew * skew, 1e-12));

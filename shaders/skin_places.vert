@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // What of the head lies where on the skin's atlas, and beyond the borders of its charts.
-#include "shared/skin.h"
+#include "lib/on_atlas.glsl"
 
 layout(scalar, binding = 0) uniform Surface_ { SurfaceDraw draw; };
 
@@ -16,5 +16,5 @@ layout(location = 0) out vec3 v_position; // mm
 void main()
 {
     v_position = 1e3 * (position + draw.skirt * position_outward);
-    gl_Position = vec4((place + draw.skirt * outward) / draw.size * 2.0 - 1.0, 0.0, 1.0);
+    gl_Position = on_atlas(draw, place, outward);
 }

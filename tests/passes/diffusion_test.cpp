@@ -43,9 +43,7 @@ cv::Mat4f spread(const Plane& plane, const cv::Vec3d& width_mm)
     const cv::Vec2d u(plane.skew(0, 0), plane.skew(1, 0)), v(plane.skew(0, 1), plane.skew(1, 1));
     const double along = cv::norm(u), lean = u.dot(v) / along, across = std::sqrt(v.dot(v) - lean * lean);
     const double radius = std::sqrt(along * across / CV_PI);
-    const cv::Mat4f metric(4, 4, cv::Vec4f(float(along), float(lean), float(across), float(radius)));
-    cv::Mat4f metrics(side, side);
-    metrics.setTo(cv::Scalar(metric(0, 0)));
+    const cv::Mat4f metrics(side, side, cv::Vec4f(float(along), float(lean), float(across), float(radius)));
 
     const gpu::Device& device = gpu_test::device();
     const auto texture = [&](const cv::Mat& values, const char* name) {
