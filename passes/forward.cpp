@@ -256,7 +256,7 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
         prepare_parts(graph, pass, input, shading);
     if (input.developed) {
         graph::Draw& backdrop = pass.draw("backdrop");
-        backdrop.index_count = 3;
+        backdrop.index_count = 6 * shared::BACKDROP_BANDS;
     }
     std::set<std::uint32_t> shown;
     for (const HeadPart& part : parts)

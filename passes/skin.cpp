@@ -305,15 +305,18 @@ std::shared_ptr<const Skin> upload_skin(const gpu::Device& device, const head::M
     return std::make_shared<const Skin>(std::move(skin));
 }
 
-std::optional<double> atlas_scale(const Skin& skin, std::span<const Bounds> head, const head::Camera& camera,
-                                  std::uint32_t height)
+double pixel_m(std::span<const Bounds> head, const head::Camera& camera, std::uint32_t height)
 {
     double nearest = 1e9; // m
     for (const Bounds& box : head) {
         const glm::dvec3 inside = glm::clamp(camera.eye, glm::dvec3(box.min), glm::dvec3(box.max));
         nearest = std::min(nearest, glm::distance(camera.eye, inside));
     }
-    const double pixel_m = 2 * std::tan(glm::radians(camera.fov_deg) / 2) * nearest / height;
+    return 2 * std::tan(glm::radians(camera.fov_deg) / 2) * nearest / height;
+}
+
+std::optional<double> atlas_scale(const Skin& skin, double pixel_m)
+{
     std::optional<double> finest;
     for (double scale = head::smallest_atlas_scale; scale <= head::largest_atlas_scale; scale *= 2) {
         const glm::dvec2 size = scale * glm::dvec2(skin.size);
@@ -337,11 +340,11 @@ graph::Region scaled(const graph::Region& region, double ratio, double margin, c
     return {first.x, first.y, last.x - first.x, last.y - first.y};
 }
 
-double diffusion_scale(const Skin& skin, const base::Color& scattering_length_mm)
+double diffusion_scale(const Skin& skin, const base::Color& scattering_length_mm, double pixel_m)
 {
-    const double width_m =
-        1e-3 * usual_albedo *
-        std::max({scattering_length_mm[0], scattering_length_mm[1], scattering_length_mm[2]});
+    const double width_m = std::max(
+        pixel_m, 1e-3 * usual_albedo *
+                     std::max({scattering_length_mm[0], scattering_length_mm[1], scattering_length_mm[2]}));
     double found = head::smallest_atlas_scale;
     for (double scale = found; scale <= head::largest_atlas_scale; scale *= 2) {
         const glm::dvec2 size = scale * glm::dvec2(skin.size);

@@ -59,17 +59,21 @@ std::shared_ptr<const Skin> upload_skin(const gpu::Device& device, const head::M
                                         const head::Atlas& atlas, const head::AtlasSurface& surface,
                                         std::span<const WoundReach> wounds);
 
+/// The width of a pixel on the skin where the camera is nearest to it, m. `height`: of the whole picture,
+/// pixels.
+double pixel_m(std::span<const Bounds> head, const head::Camera& camera, std::uint32_t height);
+
 /// The least scale of the atlas at which a texel is no wider than two pixels, and a wound's no wider than
-/// one, where the camera is nearest to the head; when that would take too many texels the largest scale that
-/// does not, if its texels are no wider than twice that; else none. `height`: of the whole picture, pixels.
-std::optional<double> atlas_scale(const Skin& skin, std::span<const Bounds> head, const head::Camera& camera,
-                                  std::uint32_t height);
+/// one; when that would take too many texels the largest scale that does not, if its texels are no wider than
+/// twice that; else none.
+std::optional<double> atlas_scale(const Skin& skin, double pixel_m);
 
 /// A region of an image on the atlas in an image at `ratio` times its scale and of this size; larger on each
 /// side by `margin` texels of that image.
 graph::Region scaled(const graph::Region& region, double ratio, double margin, const glm::uvec2& size);
 
-/// The scale of the atlas on which light spreads through tissue of this scattering length.
-double diffusion_scale(const Skin& skin, const base::Color& scattering_length_mm);
+/// The scale of the atlas on which light spreads through tissue of this scattering length: a texel is about
+/// as wide as light spreads, or as a pixel if that is wider.
+double diffusion_scale(const Skin& skin, const base::Color& scattering_length_mm, double pixel_m);
 
 } // namespace passes

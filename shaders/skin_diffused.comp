@@ -33,24 +33,21 @@ void main()
     const float widest = max(max(width.r, width.g), width.b);
     const vec4 metric = texelFetch(metrics, p, 0);
     const int first = int(left_within(vec3(widest), metric.w).r * float(DIFFUSION_TAPS));
+    const vec3 rate = 1 / (-3 * log(2.0) * width); // e^(-r/3d) = 2^(rate r)
+    const vec2 along = vec2(widest / metric.x, -metric.y * widest / (metric.x * metric.z));
+    const float down = widest / metric.z;
     vec3 sum = vec3(0), total = vec3(0);
     for (int k = DIFFUSION_TAPS - 1; k >= first; --k)
     {
         const vec3 tap = diffusion.taps[k].xyz;
-        vec2 offset = widest * tap.xy;
-        offset.y /= metric.z;
-        offset.x = (offset.x - metric.y * offset.y) / metric.x;
-        const ivec2 at = p + ivec2(round(offset));
-        if (any(greaterThan(abs(offset), vec2(DIFFUSION_REACH))) || any(lessThan(at, ivec2(0))) ||
-            any(greaterThanEqual(at, size)))
-            continue;
-        const vec4 there = texelFetch(places, at, 0);
-        if (there.w == 0)
-            continue;
+        const vec2 offset = vec2(dot(along, tap.xy), down * tap.y);
+        const ivec2 at = p + ivec2(round(offset)), inside = clamp(at, ivec2(0), size - 1);
+        const vec4 there = texelFetch(places, inside, 0);
+        const bool counts = there.w != 0 && at == inside && max(abs(offset.x), abs(offset.y)) <= DIFFUSION_REACH;
         const float radius = max(distance(there.xyz, here.xyz), metric.w);
-        const vec3 t = exp(-radius / (3.0 * width));
-        const vec3 weight = t * (t * t + 1.0) * (tap.z / radius);
-        sum += weight * texelFetch(gathered, at, 0).rgb;
+        const vec3 t = exp2(rate * radius);
+        const vec3 weight = t * (t * t + 1) * (counts ? tap.z / radius : 0);
+        sum += weight * texelFetch(gathered, inside, 0).rgb;
         total += weight;
     }
     const vec3 own = texelFetch(gathered, p, 0).rgb;

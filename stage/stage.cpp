@@ -220,7 +220,8 @@ const passes::Skin* Stage::skin() const
 std::optional<double> Stage::light_scale(const head::Camera& camera, std::uint32_t height) const
 {
     const passes::Skin* spread = skin();
-    return spread ? passes::atlas_scale(*spread, set_.wounded->boxes, camera, height) : std::nullopt;
+    return spread ? passes::atlas_scale(*spread, passes::pixel_m(set_.wounded->boxes, camera, height))
+                  : std::nullopt;
 }
 
 base::Color Stage::scattering_length_mm(const optics::Shading& shading) const
@@ -278,13 +279,19 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
     if (spread)
         graph.keep(spread_.skin);
     const base::Color length_mm = scattering_length_mm(shading);
+    const head::Camera camera = request.camera.value_or(set_.loaded.camera());
     std::optional<double> diffusion_scale;
-    if (spread && diffused)
-        diffusion_scale = passes::diffusion_scale(*spread, length_mm);
+    if (spread && diffused) {
+        // Kept light stands while the camera moves.
+        const double pixel_m = request.light_scale
+                                   ? spread->texel_m / (2 * *request.light_scale)
+                                   : passes::pixel_m(set_.wounded->boxes, camera, request.tile.picture[1]);
+        diffusion_scale = passes::diffusion_scale(*spread, length_mm, pixel_m);
+    }
     frame.images = passes::add_frame(graph, {.head = *set_.wounded,
                                              .wounds = wounds,
                                              .lights = set_.loaded.lights,
-                                             .camera = request.camera.value_or(set_.loaded.camera()),
+                                             .camera = camera,
                                              .shading = shading,
                                              .reflectance = scene.reflectance_model,
                                              .tile = request.tile,

@@ -84,9 +84,9 @@ optics::HealingTissue tinted(optics::HealingTissue tissue, double factor)
 
 const std::vector<std::string>& case_names()
 {
-    static const std::vector<std::string> names{"still",      "camera",     "camera-lit",
-                                                "day",        "day-camera", "light-drag",
-                                                "light-rest", "tissue",     "read-back"};
+    static const std::vector<std::string> names{"still",      "camera",     "camera-lit", "day",
+                                                "day-camera", "light-drag", "light-rest", "light-keep",
+                                                "tissue",     "read-back"};
     return names;
 }
 
@@ -98,12 +98,12 @@ std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage, const std::ve
     constexpr double tint = 0.2;
     const optics::HealingTissue tissue = optics::healing_tissue_or_file(scene.tissue);
     const auto light_at = [=, &stage, scene = scene::Scene(scene)](graph::Graph& graph, double position,
-                                                                   bool dragged) {
+                                                                   bool dragged, bool kept) {
         scene::Scene lit = scene;
         if (!lit.lights.empty())
             lit.lights.front().from.azimuth_deg += arc_deg * position;
         stage.update(lit, dragged);
-        present(graph, stage, first, stage.loaded().camera(), !dragged, !dragged);
+        present(graph, stage, first, stage.loaded().camera(), kept, !dragged);
     };
     const auto restore = [&stage, scene = scene::Scene(scene)] { stage.update(scene); };
     std::vector<stage::MeasuredCase> cases{
@@ -129,9 +129,11 @@ std::vector<stage::MeasuredCase> report_cases(stage::Stage& stage, const std::ve
              present(graph, stage, first + span * position, turned(stage, position));
          }},
         {"light-drag", fmt::format("the first light goes {:g} degrees around the head", arc_deg),
-         [=](graph::Graph& graph, double position) { light_at(graph, position, true); }, restore},
-        {"light-rest", "the same, and each time light is kept on the skin anew",
-         [=](graph::Graph& graph, double position) { light_at(graph, position, false); }, restore},
+         [=](graph::Graph& graph, double position) { light_at(graph, position, true, false); }, restore},
+        {"light-rest", "the same, and in every frame light spreads through the skin anew",
+         [=](graph::Graph& graph, double position) { light_at(graph, position, false, false); }, restore},
+        {"light-keep", "the same, and each time light is kept on the skin anew",
+         [=](graph::Graph& graph, double position) { light_at(graph, position, false, true); }, restore},
         // Not on the first day: then a wound has the photograph's colours, whatever the tissue.
         {"tissue",
          fmt::format("the tissue's absorption grows by {:g} %, on day {:g}", 100 * tint, first + span / 3),

@@ -47,9 +47,9 @@ TEST(ReportCommand, WritesEverythingAndComparesWithItself)
     const Outcome first = run_program(
         {"report", "--head", head, "--size", "64x48", "--frames", "5", "--validation", "--out", out});
     ASSERT_EQ(first.code, 0) << first.err;
-    for (const char* word :
-         {"still: ", "camera: ", "day: ", "day-camera: ", "camera-lit: ", "light-drag: ", "light-rest: ",
-          "tissue: ", "read-back: ", "CPU ms", "forward", "the passes explain", "report.html"})
+    for (const char* word : {"still: ", "camera: ", "day: ", "day-camera: ", "camera-lit: ", "light-drag: ",
+                             "light-rest: ", "light-keep: ", "tissue: ", "read-back: ", "CPU ms", "forward",
+                             "the passes explain", "report.html"})
         EXPECT_THAT(first.out, HasSubstr(word));
     const json record = report_command::read_report(folder / "out/report.json");
     EXPECT_EQ(record.at("settings").at("size"), "64x48");

@@ -117,7 +117,8 @@ TEST_F(Report, EachCaseRerunsOnlyThePassesItAffects)
         {"day", with(spread({{"coarse skin", all}, {"wound_texture", all}, {"wound_relief", all}}))},
         {"day-camera", with(spread({{"coarse skin", all}, {"wound_texture", all}, {"wound_relief", all}}))},
         {"light-drag", with({{"shadow", all}})},
-        {"light-rest", with(spread({{"skin shadow", all}, {"skin light", all}}))},
+        {"light-rest", with(spread({{"skin shadow", all}, {"shadow", all}}))},
+        {"light-keep", with(spread({{"skin shadow", all}, {"skin light", all}}))},
         {"tissue", with(spread({{"coarse skin", all}, {"reflectance_lut", all}}))},
         {"read-back", {}}};
     for (const report_command::CaseSummary& summary : summaries)
@@ -149,7 +150,7 @@ TEST_F(Report, TheCasesChangeThePictureAndRestoreTheStage)
     const scene::Scene scene = small::scene(small::head(), 64);
     stage::Stage stage(gpu_test::device(), stage::Stage::prepare(scene));
     const std::vector<stage::MeasuredCase> cases = report_command::report_cases(
-        stage, {"still", "camera", "day", "day-camera", "light-drag", "light-rest", "tissue"});
+        stage, {"still", "camera", "day", "day-camera", "light-drag", "light-rest", "light-keep", "tissue"});
     gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
     const auto picture = [&](const stage::MeasuredCase& one, double position) {
         graph::Graph graph;
