@@ -72,10 +72,10 @@ graph::Region pixels_of(const ForwardWound& wound, double reach_m, const shared:
 }
 
 /// Declares that a new day changes the picture only where the wounds are. `shown`: HeadPart::wounds of all
-/// that is drawn; the images of a wound that reaches no triangle are not sampled.
-void confine_wounds(graph::RasterPass& pass, std::span<const ForwardWound> wounds,
-                    const std::set<std::uint32_t>& shown, const shared::View& view,
-                    const graph::ImageDesc& target)
+/// that is drawn; the images of a wound that reaches no triangle are not sampled. Returns where that is.
+graph::Region confine_wounds(graph::RasterPass& pass, std::span<const ForwardWound> wounds,
+                             const std::set<std::uint32_t>& shown, const shared::View& view,
+                             const graph::ImageDesc& target)
 {
     graph::Region all;
     for (const ForwardWound& wound : wounds) {
@@ -88,6 +88,7 @@ void confine_wounds(graph::RasterPass& pass, std::span<const ForwardWound> wound
     }
     if (!all.empty())
         pass.confine("Wounds_", all);
+    return all;
 }
 
 /// The same of images on the skin's atlas. `wounds`: all of the head's. `source`: what a new day can change
@@ -163,7 +164,9 @@ void draw_parts(graph::Graph& graph, graph::RasterPass& pass, const ForwardInput
                 std::span<const HeadPart> parts, const optics::Shading& shading)
 {
     for (const HeadPart& part : parts) {
-        graph::Draw& draw = pass.draw("forward");
+        graph::Draw& draw = pass.draw(input.apart ? "apart" : "forward");
+        if (input.apart)
+            draw.constant("SPREADS", part.surface == head::Surface::Skin && !part.blend);
         draw.mesh = input.head.mesh.get();
         draw.first_index = part.first_index;
         draw.index_count = part.index_count;
@@ -212,20 +215,43 @@ void draw_skin(graph::RasterPass& pass, const ForwardInput& input, const SkinLig
     }
 }
 
+/// Adds a colour target, resolved when there are several samples.
+graph::ImageId add_target(graph::Graph& graph, graph::RasterPass& pass, const std::string& name,
+                          const graph::ImageDesc& desc, const std::array<float, 4>& clear)
+{
+    const graph::ImageId image = graph.image(name, {desc.width, desc.height, desc.format});
+    if (desc.samples > 1)
+        pass.color(graph.image(name + "_msaa", desc), clear, image);
+    else
+        pass.color(image, clear);
+    return image;
+}
+
+LightApart add_targets_apart(graph::Graph& graph, graph::RasterPass& pass, graph::ImageDesc desc)
+{
+    desc.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    LightApart apart{.received = add_target(graph, pass, "received light", desc, {0, 0, 0, 1}),
+                     .reflectance = add_target(graph, pass, "reflectance", desc, {0, 0, 0, 0})};
+    desc.format = VK_FORMAT_R32_SFLOAT;
+    apart.distance = add_target(graph, pass, "distance", desc, {0, 0, 0, 0});
+    return apart;
+}
+
 } // namespace
 
-graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const shared::View& view,
-                           const optics::Shading& shading, const graph::ImageDesc& target)
+ForwardImages add_forward(graph::Graph& graph, const ForwardInput& input, const shared::View& view,
+                          const optics::Shading& shading, const graph::ImageDesc& target)
 {
     const VkFormat format = input.developed ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R16G16B16A16_SFLOAT;
-    const graph::ImageId radiance =
-        graph.image(input.developed ? "encoded" : "radiance", {target.width, target.height, format, 1});
     graph::RasterPass& pass = graph.raster("forward");
-    if (target.samples > 1)
-        pass.color(graph.image("radiance_msaa", {target.width, target.height, format, target.samples}),
-                   {0, 0, 0, 0}, radiance);
-    else
-        pass.color(radiance, {0, 0, 0, 0});
+    ForwardImages drawn{.radiance =
+                            add_target(graph, pass,
+                                       input.developed ? "encoded"
+                                       : input.apart   ? "specular light"
+                                                       : "radiance",
+                                       {target.width, target.height, format, target.samples}, {0, 0, 0, 0})};
+    if (input.apart)
+        drawn.apart = add_targets_apart(graph, pass, target);
     pass.depth(graph.image("depth", {target.width, target.height, VK_FORMAT_D32_SFLOAT, target.samples}));
     if (input.every_frame)
         pass.every_frame();
@@ -263,14 +289,16 @@ graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const
         shown.insert(part.wounds.begin(), part.wounds.end());
     for (const SkinDraw& piece : lit)
         shown.insert(piece.wounds.begin(), piece.wounds.end());
-    confine_wounds(pass, input.wounds, shown, view, target);
+    const graph::Region wounded = confine_wounds(pass, input.wounds, shown, view, target);
+    if (drawn.apart)
+        drawn.apart->wounded = wounded;
     if (const SkinLight* kept = input.kept)
         confine_skin(pass, {kept->light, kept->normal, kept->gloss}, kept->wounded, kept->reach_m,
                      input.placed, view, target);
     if (!lit.empty() && input.around)
         confine_skin(pass, {input.around->light}, input.around->wounded, input.around->reach_m, input.placed,
                      view, target);
-    return radiance;
+    return drawn;
 }
 
 } // namespace passes

@@ -60,12 +60,29 @@ struct ForwardInput
     const SkinLight* kept = nullptr;           // light on the skin; null: computed in every pixel
     const DiffusedLight* around = nullptr;     // of transport `diffused`; null: drawn as `preintegrated`
     std::optional<shared::Develop> developed;  // for opaque parts, a backdrop and one sample
+    bool apart = false;                        // hand out LightApart; without kept, around and developed
+};
+
+/// What the camera sees of opaque skin, before its light has spread. Per pixel, weighted by the share of the
+/// pixel that is such skin; with several samples the means of theirs.
+struct LightApart
+{
+    graph::ImageId received;    // rgb: diffuse light per reflectance; a: share that is no skin; RGBA16F
+    graph::ImageId reflectance; // rgb: rho_d C; RGBA16F
+    graph::ImageId distance;    // m, along the camera's axis; R32F
+    graph::Region wounded;      // what a new day can change; empty: unknown
+};
+
+struct ForwardImages
+{
+    graph::ImageId radiance; // without the diffuse light of `apart`
+    std::optional<LightApart> apart;
 };
 
 /// Adds one raster pass. The result is linear radiance premultiplied by alpha, RGBA16F; alpha is 1 on the
 /// head and 0 beside it. With `developed` it is the picture, RGBA8, sRGB-coded, as add_tonemap() makes it.
 /// `target.samples` is 1 or 4; with 4 the result is resolved.
-graph::ImageId add_forward(graph::Graph& graph, const ForwardInput& input, const shared::View& view,
-                           const optics::Shading& shading, const graph::ImageDesc& target);
+ForwardImages add_forward(graph::Graph& graph, const ForwardInput& input, const shared::View& view,
+                          const optics::Shading& shading, const graph::ImageDesc& target);
 
 } // namespace passes

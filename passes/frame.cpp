@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "passes/diffusion.hpp"
+#include "passes/screen_diffusion.hpp"
 #include "passes/shadow.hpp"
 #include "passes/tonemap.hpp"
 
@@ -93,7 +94,8 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
     std::vector<optics::Light> lights;
     std::ranges::copy_if(input.lights, std::back_inserter(lights),
                          [](const optics::Light& light) { return light.strength != base::Color(0, 0, 0); });
-    ForwardInput forward{input.head, seen, lights, {}, {}, input.every_frame, input.scattering_length_mm};
+    ForwardInput forward{
+        input.head, seen, lights, {}, {}, input.every_frame, input.tissue.scattering_length_mm};
     const bool lit = input.shading.lambertian() || input.shading.glossy();
     ForwardInput all = forward;
     all.wounds = placed;
@@ -113,16 +115,21 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
                 add_shadows(graph, "shadow", forward.shadows, *input.head.caster_mesh, input.head.casters);
     }
     const Backdrop backdrop = backdrop_of(input.tile);
-    if (!input.radiance && input.samples == 1 && !backdrop.transparent &&
+    forward.apart = input.shading.in_picture() && input.shading.lambertian();
+    if (!forward.apart && !input.radiance && input.samples == 1 && !backdrop.transparent &&
         std::ranges::none_of(input.head.parts, &HeadPart::blend))
         forward.developed = {std::exp2(input.exposure_stops), glm::vec2(width, height), backdrop.top,
                              backdrop.bottom};
-    const graph::ImageId drawn = add_forward(graph, forward, view, input.shading,
-                                             {width, height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
+    const ForwardImages drawn = add_forward(graph, forward, view, input.shading,
+                                            {width, height, VK_FORMAT_R16G16B16A16_SFLOAT, input.samples});
     if (forward.developed)
-        images.picture = drawn;
+        images.picture = drawn.radiance;
     else {
-        images.radiance = drawn;
+        images.radiance = drawn.apart
+                              ? add_screen_diffusion(graph, drawn,
+                                                     screen_diffusion(input.camera, input.tile, input.head,
+                                                                      input.tissue, input.shading.transport))
+                              : drawn.radiance;
         images.picture =
             add_tonemap(graph, images.radiance, input.exposure_stops, Highlights::SoftShoulder, backdrop);
     }

@@ -10,6 +10,7 @@
 #include "passes/reflectance_lut.hpp"
 #include "passes/skin.hpp"
 #include "passes/wound_texture.hpp"
+#include "wound/optics/transport.hpp"
 #include "wound/wound.hpp"
 
 namespace passes {
@@ -35,10 +36,10 @@ struct FrameInput
     optics::ReflectanceModel reflectance = optics::ReflectanceModel::TwoStream;
     ViewportTile tile;
     std::uint32_t samples = 1;
-    float exposure_stops = 0; // each stop doubles the light
-    bool every_frame = true;  // draw the head even when nothing has changed, for measurements
-    base::Color scattering_length_mm{0, 0, 0}; // of the skin (optics/transport.hpp)
-    const Skin* skin = nullptr;                // of `head` and its wounds, for what follows
+    float exposure_stops = 0;    // each stop doubles the light
+    bool every_frame = true;     // draw the head even when nothing has changed, for measurements
+    optics::TissueSpread tissue; // of the skin
+    const Skin* skin = nullptr;  // of `head` and its wounds, for what follows
     /// Light is kept on the skin where that can be done, for frames between which it stands: scale of the
     /// atlas, atlas_scale(). None: light is computed in every pixel.
     std::optional<double> kept_scale;

@@ -134,8 +134,8 @@ SkinLight add_light(graph::Graph& graph, const ForwardInput& input, const Skin& 
 bool can_keep_light(const optics::Shading& shading, const Shadows& shadows)
 {
     return shading.lambertian() && shading.drawn_transport() != optics::Transport::Published &&
-           shading.alpha_x == shading.alpha_y && shading.alpha_x >= least_even_slope &&
-           (shadows.casting & ~3u) == 0;
+           !shading.by_viewer() && !shading.in_picture() && shading.alpha_x == shading.alpha_y &&
+           shading.alpha_x >= least_even_slope && (shadows.casting & ~3u) == 0;
 }
 
 SkinLight add_skin_light(graph::Graph& graph, const ForwardInput& input, const Skin& skin, double scale,

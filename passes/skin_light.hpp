@@ -26,8 +26,8 @@ struct SkinLight
     double reach_m = 0;    // how far from a wound it can change something
 };
 
-/// Whether a camera's picture can be made of it: the transport does not depend on the vertices, the highlight
-/// is equal in all directions, and no light but the first two casts a shadow.
+/// Whether a camera's picture can be made of it: the transport depends neither on vertices nor on the camera,
+/// the highlight is equal in all directions, and no light but the first two casts a shadow.
 bool can_keep_light(const optics::Shading& shading, const Shadows& shadows);
 
 /// `input.wounds`: all of the head's, seen or not. `scale`: of the atlas, a power of two. With input.around

@@ -246,7 +246,9 @@ const std::vector<Field<optics::Shading>>& shading_fields()
                 "no "
                 "light reaches; where it entered; spread by the tissue, by curvature at bends, at the edges "
                 "of "
-                "shadows, and through thin parts; or spread from all that the skin around a point receives"),
+                "shadows, and through thin parts; spread from all that the skin around a point receives; "
+                "where "
+                "it entered, from rough facets under a gloss; or spread in the picture"),
             choice<Shading>(
                 "specular_model", optics::specular_model_names,
                 [](auto& s) -> auto& { return s.specular_model; },

@@ -1,5 +1,6 @@
 #include "stage/renderer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
@@ -92,7 +93,10 @@ std::vector<passes::ViewportTile> tiles_of(const DrawOptions& options)
 Drawing draw(Renderer& renderer, const Stage& stage, const scene::Shot& shot, const DrawOptions& options)
 {
     Drawing drawing;
-    for (const passes::ViewportTile& tile : tiles_of(options)) {
+    DrawOptions cut = options;
+    if (tiles_of(options).size() > 1)
+        cut.apron = std::max(options.apron, stage.apron(shot.camera, options.size[1]));
+    for (const passes::ViewportTile& tile : tiles_of(cut)) {
         const bool first = drawing.picture.empty();
         graph::Graph graph;
         const Frame declared = stage.declare(graph, {.day = shot.day,

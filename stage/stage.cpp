@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "base/input_error.hpp"
+#include "passes/screen_diffusion.hpp"
 #include "passes/split.hpp"
 #include "wound/optics/tissue_choice.hpp"
-#include "wound/optics/transport.hpp"
 #include "wound/reflectance_table.hpp"
 
 namespace stage {
@@ -68,7 +68,7 @@ void Stage::accept(Set set)
     if (!same_wounds(set.loaded, set_.loaded))
         known_days_.clear();
     if (set.loaded.scene.tissue != set_.loaded.scene.tissue)
-        scattering_length_mm_.reset();
+        tissue_spread_.reset();
     set_ = std::move(set);
     if (set_.loaded.complete)
         whole_ = set_;
@@ -192,7 +192,7 @@ Stage::SharedTissue Stage::make_lut(const Set& set, const scene::PlacedWound& wo
 void Stage::set_tissue(const optics::HealingTissue& tissue)
 {
     set_.loaded.tissue = tissue;
-    scattering_length_mm_.reset();
+    tissue_spread_.reset();
     const std::vector<scene::PlacedWound>& placed = set_.loaded.wounds;
     for (std::size_t i = 0; i < placed.size(); ++i) {
         std::size_t first = 0;
@@ -224,13 +224,23 @@ std::optional<double> Stage::light_scale(const head::Camera& camera, std::uint32
                   : std::nullopt;
 }
 
-base::Color Stage::scattering_length_mm(const optics::Shading& shading) const
+std::uint32_t Stage::apron(const head::Camera& camera, std::uint32_t height) const
 {
-    if (shading.pointwise_transport() != optics::Transport::Preintegrated)
-        return {0, 0, 0};
-    if (!scattering_length_mm_)
-        scattering_length_mm_ = optics::scattering_length_mm(optics::layers_of(set_.loaded.tissue));
-    return *scattering_length_mm_;
+    const optics::Shading& shading = set_.loaded.scene.shading;
+    if (!shading.in_picture())
+        return 0;
+    return passes::screen_diffusion(camera, std::array{height, height}, *set_.wounded, tissue_spread(shading),
+                                    shading.transport)
+        .reach;
+}
+
+optics::TissueSpread Stage::tissue_spread(const optics::Shading& shading) const
+{
+    if (!shading.spreads())
+        return {};
+    if (!tissue_spread_)
+        tissue_spread_ = optics::tissue_spread(optics::layers_of(set_.loaded.tissue));
+    return *tissue_spread_;
 }
 
 Stage::KnownDay Stage::known_day(double day) const
@@ -278,7 +288,7 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
     const passes::Skin* spread = request.light_scale || diffused ? skin() : nullptr;
     if (spread)
         graph.keep(spread_.skin);
-    const base::Color length_mm = scattering_length_mm(shading);
+    const optics::TissueSpread tissue = tissue_spread(shading);
     const head::Camera camera = request.camera.value_or(set_.loaded.camera());
     std::optional<double> diffusion_scale;
     if (spread && diffused) {
@@ -286,7 +296,7 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
         const double pixel_m = request.light_scale
                                    ? spread->texel_m / (2 * *request.light_scale)
                                    : passes::pixel_m(set_.wounded->boxes, camera, request.tile.picture[1]);
-        diffusion_scale = passes::diffusion_scale(*spread, length_mm, pixel_m);
+        diffusion_scale = passes::diffusion_scale(*spread, tissue.scattering_length_mm, pixel_m);
     }
     frame.images = passes::add_frame(graph, {.head = *set_.wounded,
                                              .wounds = wounds,
@@ -298,7 +308,7 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
                                              .samples = scene.samples,
                                              .exposure_stops = float(scene.exposure_stops),
                                              .every_frame = request.every_frame,
-                                             .scattering_length_mm = length_mm,
+                                             .tissue = tissue,
                                              .skin = spread,
                                              .kept_scale = request.light_scale,
                                              .diffusion_scale = diffusion_scale,

@@ -20,6 +20,7 @@
 #include "engine/gpu/device.hpp"
 #include "passes/frame.hpp"
 #include "scene/loaded_scene.hpp"
+#include "wound/optics/transport.hpp"
 
 namespace stage {
 
@@ -108,6 +109,9 @@ class Stage
     /// too near.
     std::optional<double> light_scale(const head::Camera& camera, std::uint32_t height) const;
 
+    /// ViewportTile::apron of tiles of such a picture, even: how far a pixel's light spreads in the picture.
+    std::uint32_t apron(const head::Camera& camera, std::uint32_t height) const;
+
     /// Declares a frame. The graph keeps the device data that the frame reads alive.
     Frame declare(graph::Graph& graph, const FrameRequest& request) const;
 
@@ -149,7 +153,7 @@ class Stage
     /// The skin with the wounds of set_; null for a head without a usable one.
     const passes::Skin* skin() const;
     /// Of the tissue; 0 for a shading whose transport does not use it.
-    base::Color scattering_length_mm(const optics::Shading& shading) const;
+    optics::TissueSpread tissue_spread(const optics::Shading& shading) const;
 
     const gpu::Device* device_;
     std::shared_ptr<scene::WoundLoader> loader_;
@@ -166,8 +170,8 @@ class Stage
         std::shared_ptr<const passes::Skin> skin;
     };
     mutable SpreadHead spread_;
-    mutable std::optional<base::Color>
-        scattering_length_mm_;                // of set_'s tissue, once a frame has asked for it
+    mutable std::optional<optics::TissueSpread>
+        tissue_spread_;                       // of set_'s tissue, once a frame has asked for it
     mutable std::deque<KnownDay> known_days_; // of set_, most recently requested first
 };
 

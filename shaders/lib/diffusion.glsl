@@ -5,13 +5,6 @@
 #define LIB_DIFFUSION_GLSL
 #include "lib/transport.glsl"
 
-// Same unit. In double precision: optics::left_within().
-vec3 left_within(vec3 width, float radius)
-{
-    vec3 t = exp(-radius / (3.0 * width));
-    return 1.0 - t * (t * t + 3.0) / 4.0;
-}
-
 // own: the light that would leave, if light left where it entered. around: rgb: the light that the surroundings receive,
 // per reflectance; a: mm, the radius beyond which they begin.
 vec3 with_surroundings(DiffuseSkin skin, vec3 own, vec4 around)

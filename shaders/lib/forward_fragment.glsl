@@ -1,6 +1,7 @@
 // Shades the head: albedo and normal map, wounds projected in object space and blended by eq. (4), shading by
 // eq. (8) of Choi & Chin 2014. A term that a specialisation constant turns off is not compiled.
-// With DIFFUSED defined the part has a place on the skin's atlas and takes its light from all around.
+// With DIFFUSED defined the part has a place on the skin's atlas and takes its light from all around. With APART defined the
+// skin's diffuse light, its reflectance and its distance are handed out beside the rest (lib/screen_diffusion.glsl).
 #ifndef LIB_FORWARD_FRAGMENT_GLSL
 #define LIB_FORWARD_FRAGMENT_GLSL
 #include "lib/develop.glsl"
@@ -24,6 +25,14 @@ layout(scalar, binding = 14) uniform Develop_ { Develop develop; };
 #ifdef DIFFUSED
 layout(location = 12) in vec2 v_place;
 layout(binding = 15) uniform sampler2D diffused_light;
+#endif
+
+#ifdef APART
+layout(constant_id = 17) const bool SPREADS = true; // opaque skin; what else there is hides it
+// Where blending dims them, it makes their alpha the share that is hidden.
+layout(location = 1) out vec4 out_received;
+layout(location = 2) out vec4 out_reflectance;
+layout(location = 3) out vec4 out_distance;
 #endif
 
 void main()
@@ -73,6 +82,13 @@ void main()
     mirrored *= only_ward ? 1 : skin.occlusion;
     if (AMBIENT && WARD && SPECULAR_MODEL == SPECULAR_SKIN)
         mirrored += params.mirrored * skin.occlusion * ambient_highlight(params, finish, open, frame[2], local_viewer.z, geometric, to_viewer);
+#ifdef APART
+    out_received = vec4(SPREADS ? finite_radiance(diffuse / max(body.albedo, vec3(1e-3))) : vec3(0), SPREADS ? 0 : alpha);
+    out_reflectance = vec4(SPREADS ? body.albedo : vec3(0), alpha);
+    out_distance = vec4(SPREADS ? 1 / gl_FragCoord.w : 0, 0, 0, alpha);
+    if (SPREADS)
+        diffuse = vec3(0);
+#endif
     const vec3 radiance = diffuse + mirrored;
     out_color = DEVELOPED ? vec4(developed(develop, radiance), 1) : vec4(finite_radiance(radiance), alpha);
 }

@@ -66,7 +66,9 @@ ShadowLookup shadow_lookup(Shadow shadow, vec3 position, vec3 normal, vec3 to_li
     if (transport == TRANSPORT_PREINTEGRATED)
         enter_body(at, normal, to_light, curvature);
     vec4 place = shadow_place(shadow, at, normal, to_light);
-    vec2 depth = transport == TRANSPORT_PREINTEGRATED || transport == TRANSPORT_DIFFUSED
+    bool passes = transport == TRANSPORT_PREINTEGRATED || transport == TRANSPORT_DIFFUSED ||
+                  transport == TRANSPORT_SEPARABLE || transport == TRANSPORT_BURLEY;
+    vec2 depth = passes
                      ? shadow_deeper(shadow, place, position, to_light) : vec2(0.0, 1.0);
     return ShadowLookup(place, vec4(shadow_slope(shadow, at, normal, to_light), depth));
 }

@@ -31,7 +31,10 @@ namespace shared {
     MODEL(0, Published, published, TRANSPORT_PUBLISHED) /* and by eq. (6): on all sides of the head, without a shadow */        \
     MODEL(1, Lambert, lambert, TRANSPORT_LAMBERT)       /* light leaves where it entered */                                    \
     MODEL(2, Preintegrated, preintegrated, TRANSPORT_PREINTEGRATED) /* spread by the tissue: Penner 2011, Jimenez 2010 */        \
-    MODEL(3, Diffused, diffused, TRANSPORT_DIFFUSED) /* the same, from the light all around: d'Eon 2007, Burley 2015 */
+    MODEL(3, Diffused, diffused, TRANSPORT_DIFFUSED) /* the same, from the light all around: d'Eon 2007, Burley 2015 */         \
+    MODEL(4, OrenNayar, oren-nayar, TRANSPORT_OREN_NAYAR) /* where it entered, from rough facets under a gloss: Gotanda 2012 */ \
+    MODEL(5, Separable, separable, TRANSPORT_SEPARABLE) /* spread in the picture, along x and then y: Jimenez 2015 */           \
+    MODEL(6, Burley, burley, TRANSPORT_BURLEY) /* spread in the picture, over a disc of samples: Golubev 2018 */
 
 #define MODEL_CONSTANT(number, enumerator, name, constant) CONSTANT constant = number;
 WARD_MODELS(MODEL_CONSTANT)
@@ -51,6 +54,9 @@ CONSTANT LIGHT_DIRECTIONAL = 0;
 CONSTANT LIGHT_POINT = 1;
 CONSTANT LIGHT_POINT_WITHOUT_FALLOFF = 2;
 CONSTANT MAX_LIGHTS = 8;
+
+NUMBER FACET_SLOPE = 0.3;     // rad, of TRANSPORT_OREN_NAYAR: standard deviation of the facets' tilt
+NUMBER FACETS_RETURN = 0.977; // what such facets of reflectance 1 return of even light (optics::layered_oren_nayar())
 
 NUMBER PORE_WIDTH = 0.5e-3; // m, of the detail that a normal map shows
 NUMBER DEEPEST_BODY = 0.01; // m, behind its terminator a body does not shadow itself so far

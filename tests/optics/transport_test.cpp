@@ -117,4 +117,45 @@ TEST(Transport, BallsReturnMoreThanHollowsAndNothingNegative)
         }
 }
 
+/// Mean over a cosine-weighted hemisphere of what comes from it, seen from this direction.
+double even_light(const cv::Vec3d& o, double sigma)
+{
+    constexpr int steps = 64;
+    double sum = 0;
+    for (int a = 0; a < steps; ++a)
+        for (int b = 0; b < steps; ++b) {
+            const double square = (a + .5) / steps, phi = 2 * CV_PI * (b + .5) / steps;
+            const double across = std::sqrt(square), up = std::sqrt(1 - square);
+            sum += optics::layered_oren_nayar({across * std::cos(phi), across * std::sin(phi), up}, o, sigma);
+        }
+    return sum / (steps * steps);
+}
+
+TEST(LayeredOrenNayar, KeepsEvenLightAndIsReciprocal)
+{
+    for (const double sigma : {0., .3, .6}) {
+        double returned = 0;
+        constexpr int steps = 40;
+        for (int k = 0; k < steps; ++k) {
+            const double square = (k + .5) / steps;
+            returned += even_light({std::sqrt(square), 0, std::sqrt(1 - square)}, sigma) / steps;
+        }
+        if (sigma <= .3) {
+            EXPECT_NEAR(returned, sigma == 0 ? 1 : shared::FACETS_RETURN, 2e-3) << sigma;
+        }
+        EXPECT_LT(returned, 1.002) << sigma;
+        EXPECT_GT(returned, .85) << sigma;
+    }
+    const cv::Vec3d i = cv::normalize(cv::Vec3d(.6, .2, .3)), o = cv::normalize(cv::Vec3d(-.1, .5, .8));
+    EXPECT_NEAR(optics::layered_oren_nayar(i, o, .4), optics::layered_oren_nayar(o, i, .4), 1e-12);
+}
+
+TEST(LayeredOrenNayar, IsBrightestTowardsTheLight)
+{
+    const cv::Vec3d i = cv::normalize(cv::Vec3d(1, 0, .5)), back = i, away(-i[0], i[1], i[2]);
+    EXPECT_GT(optics::layered_oren_nayar(i, back, .3), 1.2 * optics::layered_oren_nayar(i, away, .3));
+    EXPECT_NEAR(optics::layered_oren_nayar(i, back, 0), optics::layered_oren_nayar(i, away, 0), 1e-12);
+    EXPECT_EQ(optics::layered_oren_nayar({.6, 0, -.8}, back, .3), 0);
+}
+
 } // namespace

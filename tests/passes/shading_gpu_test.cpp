@@ -234,7 +234,7 @@ TEST_F(ShadingOnGpu, WholeEquationEqualsTheReference)
         shading.ward_model = static_cast<optics::WardModel>(n % 3);
         shading.specular_model = static_cast<optics::SpecularModel>(n % 2);
         shading.translucency_model = static_cast<optics::TranslucencyModel>(n / 3 % 2);
-        shading.transport = static_cast<optics::Transport>(n / 18 % 4);
+        shading.transport = static_cast<optics::Transport>(n / 18 % optics::transport_names.size());
         optics::Light light;
         light.kind = static_cast<optics::LightKind>(n / 6 % 3);
         light.position = {2 * unit(random) - 1, 2 * unit(random) - 1, unit(random)};

@@ -85,6 +85,15 @@ struct Shading
     {
         return transport == Transport::Diffused ? Transport::Preintegrated : drawn_transport();
     }
+    /// Light spreads in the picture (passes/screen_diffusion.hpp): `separable` and `burley`.
+    bool in_picture() const { return transport == Transport::Separable || transport == Transport::Burley; }
+    /// Asks for the tissue's scattering length (optics/transport.hpp).
+    bool spreads() const
+    {
+        return transport == Transport::Preintegrated || transport == Transport::Diffused || in_picture();
+    }
+    /// What leaves a point depends on the viewer.
+    bool by_viewer() const { return transport == Transport::OrenNayar; }
     /// W, the largest translucent weight at which a point that faces the light reflects no more light than it
     /// receives: rho_d + rho_ts W = 1.
     double translucency_bound() const;
@@ -172,7 +181,7 @@ struct ShadedPoint
     cv::Vec3d to_viewer{0, 0, 1};           // unit, in the space of `position`
     base::Color albedo{1, 1, 1};            // C of eq. (4)
     Finish finish;
-    // What the transports `preintegrated` and `diffused` ask for:
+    // What transports that spread light ask for:
     std::optional<cv::Vec3d> smooth{};         // unit normal without a normal map; none: the frame's
     cv::Vec2d curvature{0, 0};                 // 1/m, of the smooth surface: mean, root mean square
     double thinness = 0;                       // 1/m, of the part around it; 0: thick

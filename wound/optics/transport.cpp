@@ -22,20 +22,29 @@ bool same_layers(const SkinLayers& a, const SkinLayers& b)
            });
 }
 
-base::Color walked_length_mm(const SkinLayers& tissue)
+TissueSpread walked_spread(const SkinLayers& tissue)
 {
     const std::uint64_t photons = tissue.channels() > 3 ? 400 : 4000; // of each wavelength
     const auto profiles = diffusion_profile(tissue, {.photons = photons});
-    base::Color length(0, 0, 0);
+    TissueSpread spread;
     for (int c = 0; c < 3; ++c)
-        if (const DiffusionProfile& profile = profiles[std::size_t(c)]; profile.albedo > 1e-3)
-            length[c] = std::max(profile.radius_mm, 0.0) / (2.5 * profile.albedo);
-    return length;
+        if (const DiffusionProfile& profile = profiles[std::size_t(c)]; profile.albedo > 1e-3) {
+            spread.scattering_length_mm[c] = std::max(profile.radius_mm, 0.0) / (2.5 * profile.albedo);
+            spread.width_mm[c] = diffusion_width(profile.albedo, spread.scattering_length_mm[c]);
+        }
+    return spread;
 }
 
 double squared(double x)
 {
     return x * x;
+}
+
+/// Schlick's 1 - F over its cosine-weighted mean.
+double through_gloss(double cosine)
+{
+    const double f0 = shared::SKIN_F0, mean = f0 + (1 - f0) / 21;
+    return (1 - f0) * (1 - std::pow(std::clamp(1 - cosine, 0., 1.), 5)) / (1 - mean);
 }
 
 double width_m(const ShadedPoint& point, double albedo, int channel)
@@ -64,24 +73,43 @@ base::Color spread(const Shading& shading, const ShadedPoint& point, const cv::V
     return sum;
 }
 
+/// Beside what is lit, what comes through a thin part, before both spread in the picture.
+base::Color lit_and_passed(const Shading& shading, const ShadedPoint& point, const cv::Vec3d& to_light,
+                           const cv::Vec3d& incident, double visibility, const ShadowMap& map)
+{
+    const double facing = point.smooth ? point.smooth->dot(to_light) : incident[2];
+    base::Color sum;
+    for (int c = 0; c < 3; ++c) {
+        const double albedo = shading.rho_d * point.albedo[c];
+        const double through = 1 - left_within(map.through_m, width_m(point, albedo, c));
+        sum[c] = albedo * (std::max(incident[2], 0.) * visibility + std::max(-facing, 0.) * through);
+    }
+    return sum;
+}
+
 } // namespace
 
-base::Color scattering_length_mm(const SkinLayers& tissue)
+TissueSpread tissue_spread(const SkinLayers& tissue)
 {
     static std::mutex mutex;
-    static std::vector<std::pair<SkinLayers, base::Color>> known;
+    static std::vector<std::pair<SkinLayers, TissueSpread>> known;
     {
         const std::scoped_lock lock(mutex);
-        for (const auto& [layers, length] : known)
+        for (const auto& [layers, spread] : known)
             if (same_layers(layers, tissue))
-                return length;
+                return spread;
     }
-    const base::Color length = walked_length_mm(tissue);
+    const TissueSpread spread = walked_spread(tissue);
     const std::scoped_lock lock(mutex);
     if (known.size() >= 16)
         known.erase(known.begin());
-    known.emplace_back(tissue, length);
-    return length;
+    known.emplace_back(tissue, spread);
+    return spread;
+}
+
+base::Color scattering_length_mm(const SkinLayers& tissue)
+{
+    return tissue_spread(tissue).scattering_length_mm;
 }
 
 double diffusion_width(double albedo, double scattering_length)
@@ -159,6 +187,19 @@ base::Color surroundings_left(const Shading& shading, const ShadedPoint& point, 
     return left;
 }
 
+double layered_oren_nayar(const cv::Vec3d& i, const cv::Vec3d& o, double sigma)
+{
+    if (i[2] <= 0)
+        return 0;
+    const double theta_i = std::acos(std::min(i[2], 1.)), theta_o = std::acos(std::clamp(o[2], 1e-4, 1.));
+    const double turn = std::atan2(i[1], i[0]) - std::atan2(o[1], o[0]);
+    const double variance = squared(sigma), a = 1 - .5 * variance / (variance + .57),
+                 b = .45 * variance / (variance + .09);
+    const double rough = a + b * std::max(0., std::cos(turn)) * std::sin(std::max(theta_i, theta_o)) *
+                                 std::tan(std::min(theta_i, theta_o));
+    return rough * through_gloss(std::cos(theta_i)) * through_gloss(std::cos(theta_o));
+}
+
 // Share of the light that leaves within PORE_WIDTH, about.
 double detail_left(double width_m)
 {
@@ -170,6 +211,12 @@ base::Color leaving(const Shading& shading, const ShadedPoint& point, const cv::
 {
     if (shading.transport == Transport::Preintegrated || shading.transport == Transport::Diffused)
         return spread(shading, point, to_light, incident, visibility, map);
+    if (shading.in_picture())
+        return lit_and_passed(shading, point, to_light, incident, visibility, map);
+    if (shading.transport == Transport::OrenNayar)
+        return shading.rho_d * visibility *
+               layered_oren_nayar(incident, point.frame * point.to_viewer, shared::FACET_SLOPE) *
+               std::max(0.0, incident[2]) / shared::FACETS_RETURN * point.albedo;
     return shading.rho_d * visibility * std::max(0.0, incident[2]) * point.albedo;
 }
 

@@ -25,6 +25,10 @@
 // point returns from all that its surroundings on the skin receive, by the same profile of distances in
 // space, times the point's own albedo. passes/diffusion.hpp does that. At one point it knows what a half
 // space receives.
+//
+// `separable` and `burley` spread the light in the picture (passes/screen_diffusion.hpp). At one point they
+// know what is lit, and what passes a thin part: the share of the profile that lies farther away than its
+// thickness (Jimenez 2010; Golubev 2018), of light that falls on the far side as this side turns away from it.
 #pragma once
 #include <array>
 #include <limits>
@@ -40,6 +44,13 @@ namespace optics {
 /// radius of Burley's. By a short photon walk, some tenths of a second; tissues met before are remembered. 0
 /// where a channel returns no light. Throws as check_walk_cost() does.
 base::Color scattering_length_mm(const SkinLayers& tissue);
+
+/// The same, and d of Burley's profile of the tissue itself, that length times its albedo.
+struct TissueSpread
+{
+    base::Color scattering_length_mm{0, 0, 0}, width_mm{0, 0, 0};
+};
+TissueSpread tissue_spread(const SkinLayers& tissue);
 
 /// d of Burley's profile, in the length's unit.
 double diffusion_width(double albedo, double scattering_length);
@@ -74,6 +85,14 @@ double surroundings_passed(double albedo, double thickness, double width);
 /// What leaves of the surroundings' even light, over it and the albedo. `seen`: share of it that reaches the point. What
 /// bends much is also thin: of what a bend adds (bend_gain()) and what passes, the larger counts.
 base::Color surroundings_left(const Shading& shading, const ShadedPoint& point, const base::Color& seen);
+
+/// Transport `oren-nayar`, over Lambert's value for the same albedo: the layered base of Y. Gotanda 2012, "Beyond
+/// a simple physically based Blinn-Phong model in real-time". The course's own layer equations are not public; this
+/// is our reading: M. Oren & S. Nayar 1994, "Generalization of Lambert's reflectance model", eq. (30) with the
+/// .57 of its footnote, times (1 - F(i)) (1 - F(o)) of the gloss, each over its cosine-weighted mean, so that
+/// smooth facets return all of even light. i, o: unit, to light and viewer, in the normal's frame; 0 for a light
+/// below the horizon. sigma: rad, standard deviation of the facets' tilt.
+double layered_oren_nayar(const cv::Vec3d& i, const cv::Vec3d& o, double sigma);
 
 /// Share of a normal map's detail that is left after diffusion. Metres.
 double detail_left(double width_m);
