@@ -144,9 +144,7 @@ double Multipole::transmitted(double k) const
 namespace {
 
 constexpr double nearest_mm = 1e-3;
-constexpr std::size_t radius_count = 256;
-const double steps_per_log =
-    double(radius_count - 1) / std::log(LayeredProfile::reach_mm() / nearest_mm); // of the radii
+const double steps_per_log = 255 / std::log(LayeredProfile::reach_mm() / nearest_mm); // of 256 radii
 
 double radius_mm(std::size_t i)
 {
@@ -185,14 +183,16 @@ double reflected_by(const std::vector<Multipole>& slabs, double k)
 class Transform
 {
   public:
-    explicit Transform(const SkinLayers& tissue) : values_(count)
+    Transform(const SkinLayers& tissue, double blur_mm) : values_(count)
     {
         const auto weights = channel_weights(tissue.channels());
         for (std::size_t c = 0; c < tissue.channels(); ++c) {
             const std::vector<Multipole> slabs = multipoles(tissue.channel(c));
             whole_ += weights[c] * reflected_by(slabs, 0);
-            for (std::size_t i = 0; i < count; ++i)
-                values_[i] += weights[c] * reflected_by(slabs, lowest * std::exp(double(i) / per_log));
+            for (std::size_t i = 0; i < count; ++i) {
+                const double k = lowest * std::exp(double(i) / per_log);
+                values_[i] += weights[c] * (reflected_by(slabs, k) * std::exp(-std::pow(k * blur_mm, 2) / 2));
+            }
         }
     }
     const base::Color& whole() const { return whole_; } // at k = 0
@@ -214,9 +214,9 @@ class Transform
 
 } // namespace
 
-LayeredProfile::LayeredProfile(const SkinLayers& tissue) : values_(radius_count)
+LayeredProfile::LayeredProfile(const SkinLayers& tissue, double blur_mm) : values_(radius_count)
 {
-    const Transform transform(tissue);
+    const Transform transform(tissue, blur_mm);
     for (int c = 0; c < 3; ++c)
         albedo_[std::size_t(c)] = transform.whole()[c];
     // R(r) = 1 / (2 pi) int R^(k) J0(k r) k dk, with x = k r. A Gaussian window ends the integral, which
