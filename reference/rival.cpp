@@ -10,9 +10,9 @@ namespace reference {
 namespace {
 
 constexpr unsigned light_rays = 4;      // of a sample, for light that does not come straight from a light
-constexpr double solid_angle = .03;     // of a voxel that counts as one sample
+constexpr double solid_angle = .08;     // of a voxel that counts as one sample
 constexpr double blur_in_spacings = .6; // of a layered profile: the samples' pattern does not show
-constexpr double farthest = 14;         // e^-14 of a dipole's light goes farther, in 1 / sigma_tr
+constexpr double farthest = 9;          // in 1 / sigma_tr: a thousandth of a dipole's light goes farther
 constexpr int walks_per_ray = 4;        // of li
 constexpr std::uint64_t rival_seed = 0x21;
 
@@ -84,7 +84,7 @@ void Rival::prepare(const scene::LoadedScene& scene, double day)
     if (!same_head) {
         const base::Color paths_mm = day_->wounds.skin().mean_free_path_mm;
         light_ = std::make_shared<SurfaceLight>(
-            scene, 1e-3 * std::max(std::min({paths_mm[0], paths_mm[1], paths_mm[2]}), .05));
+            scene, 1e-3 * std::max((paths_mm[0] + paths_mm[1] + paths_mm[2]) / 3, .05));
         sampled_ = scene.head->model;
         ++work_.trees;
     }
@@ -169,16 +169,19 @@ base::Color Rival::by_layers(const SurfacePoint& point) const
          {point.skin.bed / all, 1 + 2 * point.skin.wound},
          {point.skin.covered / all, 2 + 2 * point.skin.wound}}};
     constexpr double mm2_per_m2 = 1e6;
-    const base::Color per_m2 =
-        light_->gathered(point.at, 1e-3 * optics::LayeredProfile::reach_mm(), solid_angle, [&](double r2) {
-            base::Color value(0, 0, 0);
-            for (const auto& [share, which] : shares)
-                if (share > 0) {
-                    const std::array<float, 3> at = day_->profiles[which].at_squared(mm2_per_m2 * r2);
-                    value += share * base::Color(double(at[0]), double(at[1]), double(at[2]));
-                }
-            return value;
-        });
+    double reach_mm = 0;
+    for (const auto& [share, which] : shares)
+        if (share > 0)
+            reach_mm = std::max(reach_mm, day_->profiles[which].reach_mm());
+    const base::Color per_m2 = light_->gathered(point.at, 1e-3 * reach_mm, solid_angle, [&](double r2) {
+        base::Color value(0, 0, 0);
+        for (const auto& [share, which] : shares)
+            if (share > 0) {
+                const std::array<float, 3> at = day_->profiles[which].at_squared(mm2_per_m2 * r2);
+                value += share * base::Color(double(at[0]), double(at[1]), double(at[2]));
+            }
+        return value;
+    });
     return mm2_per_m2 * albedo.mul(per_m2);
 }
 

@@ -4,7 +4,8 @@
 //
 // jensen         H. Jensen, S. Marschner, M. Levoy, P. Hanrahan 2001: the dipole. H. Jensen, J. Buhler 2002:
 // the irradiance
-//                at samples on the surface, no farther apart than a mean free path, summed by an octree.
+//                at samples on the surface, no farther apart than the channels' mean of the mean free path,
+//                summed by an octree.
 // donner-jensen  C. Donner, H. Jensen 2005: the same sum with the profile of the scene's layers, each a
 // multipole. Textures
 //                multiply the profile, as theirs do. A wound's bed and new skin have layers of their own.

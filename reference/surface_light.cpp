@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/parallel.hpp"
 
@@ -42,7 +43,11 @@ SurfaceLight::SurfaceLight(const scene::LoadedScene& scene, double spacing_m) : 
             const double area = glm::length(across) / 2;
             if (!(area > 0) || !std::isfinite(area))
                 continue;
-            const auto n = std::uint32_t(std::clamp(std::ceil(std::sqrt(2 * area) / spacing_m), 1., 1000.));
+            const double longest =
+                std::max({glm::distance(corners[0], corners[1]), glm::distance(corners[1], corners[2]),
+                          glm::distance(corners[2], corners[0])});
+            const auto n =
+                std::uint32_t(std::clamp(std::ceil(longest / (std::numbers::sqrt2 * spacing_m)), 1., 1000.));
             each_part(n, [&](const glm::dvec2& uv) {
                 const glm::vec3 at((1 - uv.x - uv.y) * corners[0] + uv.x * corners[1] + uv.y * corners[2]);
                 samples_.push_back({at, glm::vec3(0), float(area / n / n), t, glm::vec2(uv),
@@ -130,35 +135,36 @@ void SurfaceLight::illuminate(const Surfaces& surfaces, const PathTracer& tracer
 
 std::optional<double> SurfaceLight::depth(const glm::dvec3& at, double least_m) const
 {
+    constexpr float growth = 1.4f, farthest_m = 10;
     const glm::vec3 here(at);
-    const float least2 = float(least_m * least_m);
-    float nearest2 = std::numeric_limits<float>::max();
-    const Sample* nearest = nullptr;
-    // First whether there is one within least_m, which most often there is and is found soon.
-    for (const bool any : {true, false})
+    // Most often a sample is nearer than least_m, or little farther: the search grows from there.
+    for (float radius = float(least_m); radius < farthest_m; radius *= growth) {
+        const bool first = radius == float(least_m);
+        float nearest2 = radius * radius;
+        const Sample* nearest = nullptr;
         for (std::size_t i = 0; i < nodes_.size();) {
             const Node& node = nodes_[i];
             const glm::vec3 to_box = glm::max(glm::abs(here - node.centre) - node.half, glm::vec3(0));
-            if (glm::dot(to_box, to_box) > (any ? least2 : nearest2)) {
+            if (glm::dot(to_box, to_box) > nearest2) {
                 i = node.skip;
                 continue;
             }
             if (node.leaf)
                 for (std::uint32_t s = node.first; s < node.first + node.count; ++s) {
                     const glm::vec3 between = here - samples_[s].at;
-                    const float r2 = glm::dot(between, between);
-                    if (any && r2 < least2)
-                        return std::nullopt;
-                    if (!any && r2 < nearest2) {
+                    if (const float r2 = glm::dot(between, between); r2 < nearest2) {
+                        if (first)
+                            return std::nullopt;
                         nearest2 = r2;
                         nearest = &samples_[s];
                     }
                 }
             ++i; // below a node its children follow, below a leaf the next node
         }
-    if (!nearest)
-        return std::nullopt;
-    return std::max(double(glm::dot(nearest->at - here, nearest->normal)), least_m);
+        if (nearest)
+            return std::max(double(glm::dot(nearest->at - here, nearest->normal)), least_m);
+    }
+    return std::nullopt;
 }
 
 double SurfaceLight::area_m2() const

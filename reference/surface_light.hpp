@@ -16,8 +16,8 @@ namespace reference {
 class SurfaceLight
 {
   public:
-    /// No sample is larger than half of `spacing_m` squared: of two triangles that make a square, samples repeat at that
-    /// distance. Keeps nothing of the scene.
+    /// Samples repeat at most every `spacing_m` along the legs of a right triangle. Keeps nothing of the
+    /// scene.
     SurfaceLight(const scene::LoadedScene& scene, double spacing_m);
 
     /// Pass 1: of each sample the lights' light, and the mean of `rays` directions for the rest, with this

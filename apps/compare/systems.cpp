@@ -25,10 +25,10 @@ namespace {
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-constexpr double shown_de = 10; // of the difference maps' colours
-constexpr double arc_deg = 40;  // that camera and light go around the head
-constexpr int rays_per_axis = 4;
-constexpr int slow_every = 3; // rounds, of what takes seconds for a frame
+constexpr double shown_de = 10;  // of the difference maps' colours
+constexpr double arc_deg = 40;   // that camera and light go around the head
+constexpr int rays_per_axis = 3; // of a pixel, for the errors of what runs on the processor
+constexpr int slow_every = 3;    // rounds, of what takes seconds for a frame
 constexpr int jpeg_quality = 88;
 
 /// Eq. (8) with the paper's coefficients, in the scene's light: its shadows, its surroundings, its wounds'

@@ -211,9 +211,9 @@ std::string systems_page(const json& record, const std::string& picture)
         "before.\n\n{}\n",
         record["rounds"].get<int>(), cost_table(systems));
     text +=
-        "## Error\n\nCIEDE2000 from the truth: mean / 95th percentile, of pictures averaged over 4 x 4 "
-        "places "
-        "in a pixel. FLIP is the mean over the head. `ward` and `published` shine as the paper has it, one "
+        "## Error\n\nCIEDE2000 from the truth: mean / 95th percentile, averaged over 4 x 4 places in a "
+        "pixel, on the processor over 3 x 3. FLIP is the mean over the head. `ward` and `published` shine as "
+        "the paper has it, one "
         "lobe of rho_s = .8, with its rho_d = .7; all others have the scene's highlight, which is also the "
         "truth's, so `lambert` is the one that lacks nothing but scattering.\n\n" +
         error_table(systems) + "\n## Memory, and what comes before\n\n" +

@@ -143,8 +143,8 @@ double Multipole::transmitted(double k) const
 
 namespace {
 
-constexpr double nearest_mm = 1e-3;
-const double steps_per_log = 255 / std::log(LayeredProfile::reach_mm() / nearest_mm); // of 256 radii
+constexpr double nearest_mm = 1e-3, farthest_mm = 40;
+const double steps_per_log = 255 / std::log(farthest_mm / nearest_mm); // of 256 radii
 
 double radius_mm(std::size_t i)
 {
@@ -234,17 +234,23 @@ LayeredProfile::LayeredProfile(const SkinLayers& tissue, double blur_mm) : value
                 float(std::max(sum[c], 0.0) / (2 * pi * radius_mm(i) * radius_mm(i)));
     }
     // What is normalised is the profile as it is looked up: its integral is 1 whatever the table's steps do.
-    std::array<double, 3> integral{};
-    for (std::size_t i = 0; i < radius_count; ++i) {
+    const auto ring = [&](std::size_t i, std::size_t c) {
         const double ends = i == 0 || i + 1 == radius_count ? .5 : 1;
         const double area = ends * 2 * pi * std::pow(radius_mm(i), 2) / steps_per_log +
                             (i == 0 ? pi * nearest_mm * nearest_mm : 0);
-        for (std::size_t c = 0; c < 3; ++c)
-            integral[c] += area * double(values_[i][c]);
+        return area * double(values_[i][c]);
+    };
+    for (std::size_t c = 0; c < 3; ++c) {
+        double integral = 0, beyond = 0;
+        for (std::size_t i = 0; i < radius_count; ++i)
+            integral += ring(i, c);
+        for (auto& value : values_)
+            value[c] = integral > 0 ? float(double(value[c]) / integral) : 0;
+        std::size_t last = radius_count - 1;
+        while (last > 0 && (beyond += ring(last, c)) < 1e-3)
+            --last;
+        reach_mm_ = std::max(reach_mm_, radius_mm(last));
     }
-    for (auto& value : values_)
-        for (std::size_t c = 0; c < 3; ++c)
-            value[c] = integral[c] > 0 ? float(double(value[c]) / integral[c]) : 0;
 }
 
 std::array<float, 3> LayeredProfile::at_squared(double r2) const
