@@ -36,7 +36,8 @@ PathTracer::PathTracer(const scene::LoadedScene& scene, const Surfaces& surfaces
 {
 }
 
-Radiance PathTracer::along(const glm::dvec3& origin, const glm::dvec3& direction, Random& random) const
+Radiance PathTracer::along(const glm::dvec3& origin, const glm::dvec3& direction, Random& random,
+                           const SkinLight& skin_light) const
 {
     const glm::dvec3 unit = glm::normalize(direction), to_viewer = -unit;
     double from = 0;
@@ -49,7 +50,9 @@ Radiance PathTracer::along(const glm::dvec3& origin, const glm::dvec3& direction
         const glm::dvec3 normal = bent_to_viewer(point.normal, to_viewer);
         Radiance radiance{black, black, 1};
         if (shading_.lambert)
-            radiance.diffuse = reflected(point, normal, 0, random);
+            radiance.diffuse = skin_light && point.look->surface == head::Surface::Skin
+                                   ? skin_light(point, normal, random)
+                                   : reflected(point, normal, 0, random);
         if (shading_.ward && levels_.specular)
             radiance.specular = specular(point, normal, to_viewer, random);
         return radiance;
@@ -142,22 +145,27 @@ base::Color PathTracer::by_one_exit(const WalkEnds& ends, int bounce, Random& ra
 base::Color PathTracer::received(const SurfacePoint& point, const glm::dvec3& normal,
                                  const base::Color& importance, int bounce, Random& random) const
 {
-    base::Color sum = direct(point, normal);
+    return direct(point, normal) + indirect(point, normal, importance, bounce, random);
+}
+
+base::Color PathTracer::indirect(const SurfacePoint& point, const glm::dvec3& normal,
+                                 const base::Color& importance, int bounce, Random& random) const
+{
     const bool last = bounce >= levels_.bounces;
     const base::Color open = openness(point);
     if (last && ambient_ == black)
-        return sum;
+        return black;
     const glm::dvec3 towards = direction_about(normal, std::sqrt(1 - random()), random());
     const std::optional<head::Hit> hit = surfaces_.met(point.lifted, towards);
     if (!hit)
-        return sum + open.mul(ambient_);
+        return open.mul(ambient_);
     if (last || !(hit->front || surfaces_.look(*hit).double_sided))
-        return sum;                                                         // the inside of a bust is black
+        return black;                                                       // the inside of a bust is black
     const double chance = std::min(1.0, 4 * largest(open.mul(importance))); // Russian roulette
     if (random() >= chance)
-        return sum;
+        return black;
     const SurfacePoint next = surfaces_.point(*hit);
-    return sum + (1 / chance) * open.mul(reflected(next, next.normal, bounce + 1, random));
+    return (1 / chance) * open.mul(reflected(next, next.normal, bounce + 1, random));
 }
 
 base::Color PathTracer::specular(const SurfacePoint& point, const glm::dvec3& normal,

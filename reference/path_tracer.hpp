@@ -10,6 +10,8 @@
 // Units as optics::Light has them: a light's strength is the radiance of a white diffuser that faces it, so
 // that direct light is the sum of strength x cosine, without pi.
 #pragma once
+#include <functional>
+
 #include "reference/levels.hpp"
 #include "reference/surface.hpp"
 
@@ -29,12 +31,21 @@ class PathTracer
     PathTracer(const scene::LoadedScene& scene, const Surfaces& surfaces, const DayWounds& wounds,
                const Levels& levels);
 
+    /// What leaves a point of skin diffusely, by another method than the tracer's own.
+    using SkinLight = std::function<base::Color(const SurfacePoint&, const glm::dvec3& normal, Random&)>;
     /// `direction` may have any length.
-    Radiance along(const glm::dvec3& origin, const glm::dvec3& direction, Random& random) const;
+    Radiance along(const glm::dvec3& origin, const glm::dvec3& direction, Random& random,
+                   const SkinLight& skin_light = {}) const;
 
-  private:
     /// Light of the lights that falls on a point, as the radiance of a white diffuser there.
     base::Color direct(const SurfacePoint& point, const glm::dvec3& normal) const;
+    /// All other light that falls there: received() without it.
+    base::Color indirect(const SurfacePoint& point, const glm::dvec3& normal, const base::Color& importance,
+                         int bounce, Random& random) const;
+    /// What leaves the skin through a walk's exits, one of each channel.
+    base::Color by_channel(const WalkEnds& ends, Random& random) const;
+
+  private:
     /// Light that falls on a point, from lights, surroundings and other skin. `importance`: its weight in
     /// what is seen, for Russian roulette. `bounce`: how often it has gone from skin to skin.
     base::Color received(const SurfacePoint& point, const glm::dvec3& normal, const base::Color& importance,
@@ -42,8 +53,7 @@ class PathTracer
     /// Light that leaves a point diffusely.
     base::Color reflected(const SurfacePoint& point, const glm::dvec3& normal, int bounce,
                           Random& random) const;
-    /// The same through a walk's exits: of each channel, or of one exit for all of them.
-    base::Color by_channel(const WalkEnds& ends, Random& random) const;
+    /// The same through one of a walk's exits, which stands for all of them.
     base::Color by_one_exit(const WalkEnds& ends, int bounce, Random& random) const;
     /// A control variate: zero on average, and where the skin is flat and evenly lit it takes away all noise
     /// of the walk with this key. The same walk in a half space reflects nearly as much, and what a half

@@ -48,7 +48,7 @@ class Walk
     {
     }
 
-    WalkEnds run(const glm::dvec3& from, const glm::dvec3& normal)
+    WalkEnds run(const glm::dvec3& from, const glm::dvec3& normal, const StopsAt& stops_at)
     {
         at_ = from;
         direction_ = entering(medium_.n, normal, Random(key_, 0, 0));
@@ -60,6 +60,11 @@ class Walk
                 split_at(*met);
             else
                 scatter_before(reach_);
+            if (stops_at && stops_at(at_)) {
+                ends_.stopped_at = at_;
+                ends_.stopped = weight_;
+                break;
+            }
         }
         return ends_;
     }
@@ -157,9 +162,9 @@ std::optional<SurfaceHit> HalfSpace::first_on_ray(const glm::dvec3& origin, cons
 }
 
 WalkEnds random_walk(const Medium& medium, const Body& body, const glm::dvec3& from, const glm::dvec3& normal,
-                     std::uint64_t key)
+                     std::uint64_t key, const StopsAt& stops_at)
 {
-    return Walk(medium, body, key).run(from, normal);
+    return Walk(medium, body, key).run(from, normal, stops_at);
 }
 
 } // namespace reference

@@ -7,6 +7,7 @@
 // it), and the walk adds where the light comes out. A specular lobe on the surface is the caller's.
 #pragma once
 #include <array>
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 
@@ -72,11 +73,17 @@ struct WalkEnds
     /// channel by one random number for the three: often the same exit. Undefined for a channel without
     /// reflected light.
     std::array<WalkExit, 3> exits;
+    /// Where the walk was stopped inside the body, and the light that it still carried; no weight: it was
+    /// not.
+    glm::dvec3 stopped_at{0.0};
+    base::Color stopped{0, 0, 0};
 };
+/// Whether a walk stops at a place inside the body, where it scatters.
+using StopsAt = std::function<bool(const glm::dvec3&)>;
 
 /// A walk from a point of the surface, with the body's outward normal there. Each step has random numbers of
 /// its own, made from `key`, so that walks with the same key in similar bodies stay similar.
 WalkEnds random_walk(const Medium& medium, const Body& body, const glm::dvec3& from, const glm::dvec3& normal,
-                     std::uint64_t key);
+                     std::uint64_t key, const StopsAt& stops_at = {});
 
 } // namespace reference

@@ -36,7 +36,7 @@ double median_depth_mm(const wound::DayMaps& maps, int depth, int coverage)
 } // namespace
 
 DayWounds::DayWounds(const scene::LoadedScene& scene, double day, const std::optional<MediumChoice>& walked)
-    : scene_(scene), choice_(walked.value_or(MediumChoice{})), today_(scene.wounds_on(day))
+    : scene_(scene), day_(day), choice_(walked.value_or(MediumChoice{})), today_(scene.wounds_on(day))
 {
     if (walked) {
         table_.emplace(choice_.anisotropy, choice_.index);
@@ -53,20 +53,22 @@ DayWounds::DayWounds(const scene::LoadedScene& scene, double day, const std::opt
                            reflectance_table(rows, scene.scene.reflectance_model), rows.axes,
                            1.8 * placed.anchor.half_width_m});
         if (walked)
-            tissues_.push_back({tissue_under(i, true, day), tissue_under(i, false, day)});
+            tissues_.push_back(
+                {kept_reduction(base::cache_folder(), layers_under(i, true), *table_, choice_),
+                 kept_reduction(base::cache_folder(), layers_under(i, false), *table_, choice_)});
     }
 }
 
-ReducedTissue DayWounds::tissue_under(std::size_t wound, bool bed, double day) const
+optics::SkinLayers DayWounds::layers_under(std::size_t wound, bool bed) const
 {
     const wound::Healing& healing = scene_.wounds[wound].healing;
     const optics::HealingTissue here = scene_.tissue_at(scene_.wounds[wound]);
     const optics::TissueDay tissue =
-        bed ? optics::open_bed(here, day, wound::healing_at(healing, day).depth_scale)
-            : optics::covered_bed(here, day, wound::closure_day(healing.curve));
+        bed ? optics::open_bed(here, day_, wound::healing_at(healing, day_).depth_scale)
+            : optics::covered_bed(here, day_, wound::closure_day(healing.curve));
     const wound::DayMaps& maps = wounds_[wound].maps;
     const double depth_mm = bed ? median_depth_mm(maps, 0, 2) : median_depth_mm(maps, 1, 3);
-    return kept_reduction(base::cache_folder(), optics::layers_at(tissue, depth_mm, optics::is_the_papers(scene_.scene.reflectance_model)), *table_, choice_);
+    return optics::layers_at(tissue, depth_mm, optics::is_the_papers(scene_.scene.reflectance_model));
 }
 
 DayWounds::SkinLook DayWounds::at(const glm::dvec3& position, const glm::dvec3& smooth,

@@ -39,6 +39,10 @@ class DayWounds
 
     const ReducedTissue& skin() const { return skin_; }
 
+    /// The layers of a wound: of its bed, or of new epithelium over what has regrown.
+    optics::SkinLayers layers_under(std::size_t wound, bool bed) const;
+    std::size_t count() const { return wounds_.size(); }
+
   private:
     struct One
     {
@@ -48,9 +52,8 @@ class DayWounds
         shared::LutAxes axes;
         double reach_m;
     };
-    ReducedTissue tissue_under(std::size_t wound, bool bed, double day) const;
-
     const scene::LoadedScene& scene_;
+    const double day_;
     MediumChoice choice_;
     std::optional<AlbedoTable> table_; // with a medium
     ReducedTissue skin_;

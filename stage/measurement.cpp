@@ -60,6 +60,8 @@ std::vector<Measurement> measure(const gpu::Device& device, const graph::ShaderL
         if (round == rounds.warm_up + rounds.counted)
             zero = Clock::now();
         for (std::size_t i = 0; i < cases.size(); ++i) {
+            if (round % cases[i].every != 0)
+                continue;
             executors[i]->measure({.align = true, .count = counting});
             TimedFrame frame = draw(*executors[i], cases[i], double(round) / rounds.all(), zero,
                                     counting && device.info().statistics);

@@ -19,6 +19,7 @@ struct MeasuredCase
     std::function<void(graph::Graph&, double position)> declare;
     std::function<void()> afterwards = [] {}; // not timed
     bool every_pass = false;                  // also run passes whose inputs are unchanged
+    int every = 1; // drawn in every such round only, from the first on: for what takes seconds
 };
 
 struct TimedFrame

@@ -13,20 +13,6 @@ namespace {
 
 constexpr std::uint32_t supersampling = 4; // of our picture, per axis
 
-/// Our picture as the truth is sampled: the mean of many places in each pixel. Premultiplied radiance.
-cv::Mat4f supersampled(Renderer& renderer, const Stage& stage, const scene::Shot& shot)
-{
-    DrawOptions drawing;
-    for (std::size_t axis = 0; axis < 2; ++axis)
-        drawing.size[axis] = supersampling * stage.scene().size[axis];
-    drawing.transparent = drawing.radiance = true;
-    drawing.areas = false;
-    const cv::Mat4f large = draw(renderer, stage, shot, drawing).radiance;
-    cv::Mat4f mean;
-    cv::resize(large, mean, large.size() / int(supersampling), 0, 0, cv::INTER_AREA);
-    return mean;
-}
-
 PixelErrors errors_of(const cv::Mat4f& ours, const cv::Mat4f& truth, const cv::Mat1f& noise, double exposure)
 {
     PixelErrors errors{cv::Mat1f(ours.size(), 0.f), noise, cv::Mat3f(ours.size(), cv::Vec3f::all(0))};
@@ -82,28 +68,57 @@ RegionError error_in(const cv::Mat1b& region, const PixelErrors& errors)
     return error;
 }
 
-TruthError measure_truth_error(Renderer& renderer, const Stage& stage, const scene::Shot& shot,
-                               const reference::Levels& levels, const reference::Until& until,
-                               base::Progress& progress, std::vector<std::string>& notes)
+ShotTruth find_shot_truth(const scene::LoadedScene& scene, const scene::Shot& shot,
+                          const reference::Levels& levels, const reference::Until& until,
+                          base::Progress& progress, std::vector<std::string>& notes)
 {
     const reference::Request request{
-        .camera = shot.camera, .size = stage.scene().size, .day = shot.day, .levels = levels};
-    TruthError result{.traced = reference::find_truth(stage.loaded(), request, until, progress, notes)};
-    if (result.traced.interrupted || result.traced.picture.passes() < 2)
+        .camera = shot.camera, .size = scene.scene.size, .day = shot.day, .levels = levels};
+    ShotTruth truth{.traced = reference::find_truth(scene, request, until, progress, notes)};
+    if (truth.traced.interrupted || truth.traced.picture.passes() < 2)
         throw base::Interrupted();
-    progress.show(shot.name);
-    const double exposure = stage.scene().exposure_stops;
-    result.ours = supersampled(renderer, stage, shot);
-    result.truth = result.traced.picture.radiance();
-    result.errors = errors_of(result.ours, result.truth, result.traced.picture.noise_map(exposure), exposure);
-    result.regions = reference::find_regions(stage.loaded(), request);
-    result.shown = cv::Mat1b(result.ours.size(), uchar(0));
-    const cv::Mat1b whole = covered_whole(result.ours, result.truth);
-    for (cv::Mat1b& region : result.regions) {
-        region &= whole;
-        result.shown |= region;
+    truth.exposure_stops = scene.scene.exposure_stops;
+    truth.radiance = truth.traced.picture.radiance();
+    truth.noise = truth.traced.picture.noise_map(truth.exposure_stops);
+    truth.regions = reference::find_regions(scene, request);
+    return truth;
+}
+
+cv::Mat4f supersampled(Renderer& renderer, const Stage& stage, const scene::Shot& shot)
+{
+    DrawOptions drawing;
+    for (std::size_t axis = 0; axis < 2; ++axis)
+        drawing.size[axis] = supersampling * stage.scene().size[axis];
+    drawing.transparent = drawing.radiance = true;
+    drawing.areas = false;
+    const cv::Mat4f large = draw(renderer, stage, shot, drawing).radiance;
+    cv::Mat4f mean;
+    cv::resize(large, mean, large.size() / int(supersampling), 0, 0, cv::INTER_AREA);
+    return mean;
+}
+
+TruthError error_of(const cv::Mat4f& ours, const ShotTruth& truth)
+{
+    TruthError result{.ours = ours, .truth = truth.radiance};
+    result.errors = errors_of(ours, truth.radiance, truth.noise, truth.exposure_stops);
+    result.shown = cv::Mat1b(ours.size(), uchar(0));
+    const cv::Mat1b whole = covered_whole(ours, truth.radiance);
+    for (std::size_t i = 0; i < truth.regions.size(); ++i) {
+        result.regions[i] = truth.regions[i] & whole;
+        result.shown |= result.regions[i];
     }
     return result;
+}
+
+std::pair<TruthError, reference::Truth>
+measure_truth_error(Renderer& renderer, const Stage& stage, const scene::Shot& shot,
+                    const reference::Levels& levels, const reference::Until& until, base::Progress& progress,
+                    std::vector<std::string>& notes)
+{
+    ShotTruth truth = find_shot_truth(stage.loaded(), shot, levels, until, progress, notes);
+    progress.show(shot.name);
+    TruthError error = error_of(supersampled(renderer, stage, shot), truth);
+    return {std::move(error), std::move(truth.traced)};
 }
 
 } // namespace stage

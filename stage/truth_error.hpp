@@ -26,6 +26,23 @@ struct PixelErrors
 };
 RegionError error_in(const cv::Mat1b& region, const PixelErrors& errors);
 
+/// The truth of a shot, for any number of pictures of it.
+struct ShotTruth
+{
+    reference::Truth traced;
+    cv::Mat4f radiance;         // of it
+    cv::Mat1f noise;            // CIEDE2000 between two such truths
+    reference::Regions regions; // of the shot
+    double exposure_stops = 0;
+};
+/// Asks for the truth. Throws base::InputError, and base::Interrupted after Ctrl-C.
+ShotTruth find_shot_truth(const scene::LoadedScene& scene, const scene::Shot& shot,
+                          const reference::Levels& levels, const reference::Until& until,
+                          base::Progress& progress, std::vector<std::string>& notes);
+
+/// The shot as the truth is sampled: drawn larger and averaged. Premultiplied linear radiance.
+cv::Mat4f supersampled(Renderer& renderer, const Stage& stage, const scene::Shot& shot);
+
 struct TruthError
 {
     cv::Mat4f ours,
@@ -33,12 +50,14 @@ struct TruthError
     PixelErrors errors;
     reference::Regions regions; // without pixels that the head covers in part
     cv::Mat1b shown;            // all regions
-    reference::Truth traced;
 };
+/// `ours`: premultiplied linear radiance of the truth's size.
+TruthError error_of(const cv::Mat4f& ours, const ShotTruth& truth);
 
 /// Draws the shot and asks for its truth. Throws base::InputError, and base::Interrupted after Ctrl-C.
-TruthError measure_truth_error(Renderer& renderer, const Stage& stage, const scene::Shot& shot,
-                               const reference::Levels& levels, const reference::Until& until,
-                               base::Progress& progress, std::vector<std::string>& notes);
+std::pair<TruthError, reference::Truth>
+measure_truth_error(Renderer& renderer, const Stage& stage, const scene::Shot& shot,
+                    const reference::Levels& levels, const reference::Until& until, base::Progress& progress,
+                    std::vector<std::string>& notes);
 
 } // namespace stage

@@ -71,9 +71,8 @@ class Comparison
   private:
     json compare(const scene::Shot& shot)
     {
-        const stage::TruthError result = stage::measure_truth_error(
+        const auto [result, traced] = stage::measure_truth_error(
             renderer_, stage_, shot, options_.reference.levels, options_.reference.until, progress_, notes_);
-        const reference::Truth& traced = result.traced;
         json record{{"day", shot.day},
                     {"samples", traced.picture.samples()},
                     {"noise_de", traced.noise_de},
@@ -164,17 +163,31 @@ class Comparison
 
 } // namespace
 
-void add_reference_options(CLI::App& command, ReferenceOptions& options)
+void add_reference_options(CLI::App& command, CompareOptions& options)
 {
+    ReferenceOptions& chosen = options.reference;
     CLI::Option* wanted =
-        command.add_flag("--reference", options.wanted,
+        command.add_flag("--reference", chosen.wanted,
                          "Compare with the scene's path-traced truth instead of with another scene");
+    CLI::Option* systems = command.add_flag("--systems", chosen.systems,
+                                            "Compare all systems of light transport with that truth and with "
+                                            "each other, at 640x360 unless given");
+    systems->excludes(wanted);
+    command
+        .add_option(
+            "--document", options.document,
+            "With --systems: where the page goes, its picture to images/ beside it (default: rivals.md "
+            "in the folder)")
+        ->needs(systems)
+        ->type_name("PAGE.md");
     const std::size_t before = command.get_options().size();
-    reference::add_until_options(command, options.until);
-    reference::add_level_options(command, options.levels);
+    reference::add_until_options(command, chosen.until);
+    reference::add_level_options(command, chosen.levels);
     const std::vector<CLI::Option*> all = command.get_options([](CLI::Option*) { return true; });
     for (std::size_t i = before; i < all.size(); ++i)
-        all[i]->needs(wanted)->group("With --reference");
+        all[i]->group("With --reference or --systems")->check([&chosen](const std::string&) {
+            return chosen.wanted || chosen.systems ? std::string() : "it requires --reference or --systems";
+        });
 }
 
 void compare_with_reference(const CompareOptions& options)

@@ -17,7 +17,8 @@ namespace compare_command {
 
 struct ReferenceOptions
 {
-    bool wanted = false;
+    bool wanted = false;  // --reference
+    bool systems = false; // --systems
     reference::Until until;
     reference::Levels levels;
 };
@@ -29,9 +30,10 @@ struct CompareOptions : scene::SceneOptions
     std::vector<std::string> views;
     int rounds = 9; // of the cost measurement, for each scene
     ReferenceOptions reference;
+    std::filesystem::path document; // of --systems; empty: rivals.md in `out`
 };
 
-void add_reference_options(CLI::App& command, ReferenceOptions& options);
+void add_reference_options(CLI::App& command, CompareOptions& options);
 
 /// Writes the pages and numbers into options.out. Throws base::InputError.
 void compare_with_reference(const CompareOptions& options);

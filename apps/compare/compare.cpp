@@ -10,6 +10,7 @@
 
 #include "apps/compare/against_reference.hpp"
 #include "apps/compare/page.hpp"
+#include "apps/compare/systems.hpp"
 #include "base/axis.hpp"
 #include "base/color.hpp"
 #include "base/file.hpp"
@@ -199,12 +200,13 @@ void add(CLI::App& program)
     CLI::App* command =
         program.add_subcommand("compare", "Compare two scenes: their pictures, colour differences and costs");
     scene::add_scene_options(*command, *options);
-    command->get_option("scene")->required()->description("First scene, A (docs/scene.md)");
+    command->get_option("scene")->description(
+        "First scene, A (docs/scene.md); with --systems the default scene if left out");
     command
         ->add_option("other", options->other,
                      "Second scene, B, of the same size and days; the options below apply to both")
         ->type_name("OTHER.json");
-    add_reference_options(*command, options->reference);
+    add_reference_options(*command, *options);
     command
         ->add_option("--views", options->views,
                      "Views to compare, as in cicatrix capture, separated by commas")
@@ -223,12 +225,17 @@ void add(CLI::App& program)
                     "scenes/translucency_bounded.json --days 0 --out out/translucency\n"
                     "A difference of 1 (CIEDE2000) is just noticeable. All settings of a scene file can be "
                     "compared: shading models, lights, tissue, healing.\n"
-                    "Against the truth: cicatrix compare scene.json --reference --noise 0.5 --out out/truth");
+                    "Against the truth: cicatrix compare scene.json --reference --noise 0.5 --out out/truth\n"
+                    "All systems: cicatrix compare scene.json --systems --noise 0.5 --out out/systems");
     command->callback([options] {
+        if (options->scene.empty() && !options->reference.systems)
+            throw CLI::RequiredError("scene");
         if (options->reference.wanted)
             return compare_with_reference(*options);
+        if (options->reference.systems)
+            return compare_systems(*options);
         if (options->other.empty())
-            throw CLI::RequiredError("other or --reference");
+            throw CLI::RequiredError("other, --reference or --systems");
         run_compare(*options);
     });
 }

@@ -78,7 +78,7 @@ class Table
         for (const scene::Shot& shot :
              scene::shots_of_days(scene.days, scene::chosen_views(stage.loaded(), {}))) {
             const stage::TruthError error =
-                stage::measure_truth_error(renderer_, stage, shot, {}, until_, progress_, notes);
+                stage::measure_truth_error(renderer_, stage, shot, {}, until_, progress_, notes).first;
             text += fmt::format("| {} | {} | {:g} |", light.name, tissue, shot.day);
             for (const cv::Mat1b& region : error.regions)
                 text += fmt::format(" {} |", cell(stage::error_in(region, error.errors)));

@@ -143,10 +143,8 @@ double Multipole::transmitted(double k) const
 
 namespace {
 
-constexpr double nearest_mm = 1e-3;
-constexpr std::size_t radius_count = 256;
-const double steps_per_log =
-    double(radius_count - 1) / std::log(LayeredProfile::reach_mm() / nearest_mm); // of the radii
+constexpr double nearest_mm = 1e-3, farthest_mm = 40;
+const double steps_per_log = 255 / std::log(farthest_mm / nearest_mm); // of 256 radii
 
 double radius_mm(std::size_t i)
 {
@@ -185,14 +183,16 @@ double reflected_by(const std::vector<Multipole>& slabs, double k)
 class Transform
 {
   public:
-    explicit Transform(const SkinLayers& tissue) : values_(count)
+    Transform(const SkinLayers& tissue, double blur_mm) : values_(count)
     {
         const auto weights = channel_weights(tissue.channels());
         for (std::size_t c = 0; c < tissue.channels(); ++c) {
             const std::vector<Multipole> slabs = multipoles(tissue.channel(c));
             whole_ += weights[c] * reflected_by(slabs, 0);
-            for (std::size_t i = 0; i < count; ++i)
-                values_[i] += weights[c] * reflected_by(slabs, lowest * std::exp(double(i) / per_log));
+            for (std::size_t i = 0; i < count; ++i) {
+                const double k = lowest * std::exp(double(i) / per_log);
+                values_[i] += weights[c] * (reflected_by(slabs, k) * std::exp(-std::pow(k * blur_mm, 2) / 2));
+            }
         }
     }
     const base::Color& whole() const { return whole_; } // at k = 0
@@ -214,9 +214,9 @@ class Transform
 
 } // namespace
 
-LayeredProfile::LayeredProfile(const SkinLayers& tissue) : values_(radius_count)
+LayeredProfile::LayeredProfile(const SkinLayers& tissue, double blur_mm) : values_(radius_count)
 {
-    const Transform transform(tissue);
+    const Transform transform(tissue, blur_mm);
     for (int c = 0; c < 3; ++c)
         albedo_[std::size_t(c)] = transform.whole()[c];
     // R(r) = 1 / (2 pi) int R^(k) J0(k r) k dk, with x = k r. A Gaussian window ends the integral, which
@@ -234,17 +234,23 @@ LayeredProfile::LayeredProfile(const SkinLayers& tissue) : values_(radius_count)
                 float(std::max(sum[c], 0.0) / (2 * pi * radius_mm(i) * radius_mm(i)));
     }
     // What is normalised is the profile as it is looked up: its integral is 1 whatever the table's steps do.
-    std::array<double, 3> integral{};
-    for (std::size_t i = 0; i < radius_count; ++i) {
+    const auto ring = [&](std::size_t i, std::size_t c) {
         const double ends = i == 0 || i + 1 == radius_count ? .5 : 1;
         const double area = ends * 2 * pi * std::pow(radius_mm(i), 2) / steps_per_log +
                             (i == 0 ? pi * nearest_mm * nearest_mm : 0);
-        for (std::size_t c = 0; c < 3; ++c)
-            integral[c] += area * double(values_[i][c]);
+        return area * double(values_[i][c]);
+    };
+    for (std::size_t c = 0; c < 3; ++c) {
+        double integral = 0, beyond = 0;
+        for (std::size_t i = 0; i < radius_count; ++i)
+            integral += ring(i, c);
+        for (auto& value : values_)
+            value[c] = integral > 0 ? float(double(value[c]) / integral) : 0;
+        std::size_t last = radius_count - 1;
+        while (last > 0 && (beyond += ring(last, c)) < 1e-3)
+            --last;
+        reach_mm_ = std::max(reach_mm_, radius_mm(last));
     }
-    for (auto& value : values_)
-        for (std::size_t c = 0; c < 3; ++c)
-            value[c] = integral[c] > 0 ? float(double(value[c]) / integral[c]) : 0;
 }
 
 std::array<float, 3> LayeredProfile::at_squared(double r2) const

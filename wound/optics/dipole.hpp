@@ -82,18 +82,23 @@ class Multipole
 class LayeredProfile
 {
   public:
-    /// Tissue of 1, 3 or wavelength_count channels.
-    explicit LayeredProfile(const SkinLayers& tissue);
+    /// Tissue of 1, 3 or wavelength_count channels. `blur_mm`: standard deviation of a Gaussian with which
+    /// the profile is blurred, for irradiance that is known at samples so far apart.
+    explicit LayeredProfile(const SkinLayers& tissue, double blur_mm = 0);
 
-    /// r^2 in mm^2; 0 beyond reach_mm().
+    /// r^2 in mm^2; 0 beyond 40 mm.
     std::array<float, 3> at_squared(double r2) const;
-    static constexpr double reach_mm() { return 40; }
+    /// Beyond it leaves less than a thousandth of each channel's light.
+    double reach_mm() const { return reach_mm_; }
     /// Diffuse albedo of the layers by this theory.
     const std::array<double, 3>& albedo() const { return albedo_; }
+    static constexpr std::size_t bytes() { return radius_count * sizeof(std::array<float, 3>); }
 
   private:
+    static constexpr std::size_t radius_count = 256;
     std::vector<std::array<float, 3>> values_; // at radii even in their logarithm
     std::array<double, 3> albedo_{};
+    double reach_mm_ = 0;
 };
 
 /// Albedo inversion for the dipole (Jensen & Buhler 2002, section 5): for every diffuse albedo, the alpha'

@@ -137,6 +137,7 @@ struct Light
     base::Color strength{1, 1, 1};
     double reference_distance_m = 1;
     double paper_units_per_m = 1; // of the d of eq. (6)
+    bool operator==(const Light&) const = default;
 };
 
 /// A light as a point sees it.
