@@ -1,6 +1,10 @@
 # cmake --install and the Debian package. The program itself writes the man page and the shell completions.
 include(GNUInstallDirs)
 
+# Installing and packing first build what is installed, and no tests, which the target `all` contains.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" --build \"${CMAKE_BINARY_DIR}\" --target cicatrix cicatrix-head documents COMMAND_ERROR_IS_FATAL ANY)")
+
 set(documents ${CMAKE_BINARY_DIR}/documents)
 set(document_files)
 function(cicatrix_document kind name folder)
