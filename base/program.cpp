@@ -2,9 +2,15 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+#include <time.h>
+#include <unistd.h>
 
 #include "base/interrupt.hpp"
 
@@ -17,7 +23,35 @@ void print_error(const CLI::App& program, std::string message)
     fmt::print(stderr, "{}: {}\n", program.get_name(), message);
 }
 
+/// When the kernel made this process, in seconds since 1970; now if /proc cannot be read.
+double process_start(double now)
+{
+    // proc(5): field 22 is the start time in clock ticks since boot; the name in field 2 may contain blanks.
+    std::string stat;
+    std::getline(std::ifstream("/proc/self/stat"), stat);
+    std::istringstream fields(stat.substr(std::min(stat.rfind(')') + 2, stat.size())));
+    std::string field;
+    for (int i = 3; i < 22; ++i)
+        fields >> field;
+    double ticks = 0;
+    timespec boot{};
+    if (!(fields >> ticks) || ::clock_gettime(CLOCK_BOOTTIME, &boot) != 0)
+        return now;
+    const double up = double(boot.tv_sec) + 1e-9 * double(boot.tv_nsec);
+    return now - up + ticks / double(::sysconf(_SC_CLK_TCK));
+}
+
 } // namespace
+
+double ms_since_start()
+{
+    using namespace std::chrono;
+    const double now = duration<double>(system_clock::now().time_since_epoch()).count();
+    const char* handed_over = std::getenv("CICATRIX_STARTED");
+    // A number from before this process is a leftover in the environment of its parent, or no number.
+    const double start = std::max(process_start(now), handed_over ? std::strtod(handed_over, nullptr) : 0.);
+    return 1e3 * std::max(0., now - start);
+}
 
 int run_program(CLI::App& program, int argc, char** argv)
 {

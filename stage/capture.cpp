@@ -4,18 +4,16 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fstream>
 #include <future>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
-#include <unistd.h>
 
 #include "base/contact_sheet.hpp"
 #include "base/file.hpp"
 #include "base/film.hpp"
 #include "base/image_io.hpp"
 #include "base/input_error.hpp"
+#include "base/program.hpp"
 #include "base/writers.hpp"
 #include "stage/camera_record.hpp"
 #include "stage/cost.hpp"
@@ -26,24 +24,6 @@ using nlohmann::json;
 
 constexpr std::size_t most_cells = 48;   // of healing.png, spread evenly over all pictures
 constexpr std::uint32_t close_up = 1280; // px, longest side; the sheet shows it scaled down
-
-/// Wall-clock milliseconds since the process started; none if /proc is not readable.
-std::optional<double> process_ms()
-{
-    // Field 22 of /proc/self/stat: start time in clock ticks since boot. Field 2, the program's name, may
-    // contain blanks and parentheses.
-    std::ifstream stat("/proc/self/stat"), uptime("/proc/uptime");
-    std::string line;
-    if (!std::getline(stat, line) || !uptime)
-        return std::nullopt;
-    std::istringstream fields(line.substr(line.rfind(')') + 2));
-    std::string field;
-    for (int i = 3; i <= 22; ++i)
-        fields >> field;
-    double now = 0;
-    uptime >> now;
-    return 1e3 * (now - std::stod(field) / double(::sysconf(_SC_CLK_TCK)));
-}
 
 /// Scales `size` down, keeping its aspect, so that the longer side is at most `largest`.
 std::array<std::uint32_t, 2> within(std::array<std::uint32_t, 2> size, std::uint32_t largest)
@@ -125,8 +105,7 @@ class Capture
                 record["films"].push_back(film(view));
         if (options_.cost)
             record["cost"] = measure_cost(renderer_.device, renderer_.shaders, stage_, lines);
-        record["first_picture_ms"] =
-            first_picture_ms_ ? json(*first_picture_ms_) : json(nullptr); // since the process started
+        record["first_picture_ms"] = first_picture_ms_ ? json(*first_picture_ms_) : json(nullptr);
         record["days"] = days_;
         if (options_.sheet)
             base::write_png(options_.out / "healing.png", base::contact_sheet(title(), cells_, 6));
@@ -142,7 +121,7 @@ class Capture
         progress_.show(label(shot));
         const Drawing drawing = draw(renderer_, stage_, shot, draw_options_);
         if (!first_picture_ms_)
-            first_picture_ms_ = process_ms();
+            first_picture_ms_ = base::ms_since_start();
         write(shot, drawing);
         const std::vector<wound::WoundDay>& today = *drawing.wounds;
         json record{{"day", shot.day},

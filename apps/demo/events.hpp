@@ -14,7 +14,7 @@ class DemoEvents
     explicit DemoEvents(const std::filesystem::path& file);
 
     bool wanted() const { return stream_.is_open(); }
-    /// Adds "event" and "ms" (since the start of the process) to `details`; flushes at once.
+    /// Adds "event" and "ms" (base::ms_since_start()) to `details`; flushes at once.
     void tell(const std::string& event, nlohmann::json details = nlohmann::json::object());
 
   private:

@@ -150,11 +150,31 @@ std::string man_page(const CLI::App& program, const std::string& version)
         document_options(page, *command);
         page += fmt::format(".PP\n.nf\n{}\n.fi\n", troff(command->get_footer()));
     }
-    page += ".SH ENVIRONMENT\n.TP\n.B CICATRIX_DEVICE\nVulkan device by index or part of its name, where "
-            "\\-\\-device is not given.\n.SH FILES\n.TP\n.I ~/.cache/cicatrix/head\\-v*.glb\nThe default "
-            "head, made by cicatrix\\-fetch\\-head(1); XDG_CACHE_HOME replaces ~/.cache.\n.SH EXIT STATUS\n0 "
-            "on "
-            "success; otherwise standard error names the place, the error and a remedy.\n.SH EXAMPLES\n.nf\n";
+    page += R"(.SH ENVIRONMENT
+.TP
+.B CICATRIX_DEVICE
+Vulkan device by index or part of its name, where \-\-device is not given.
+.SH FILES
+.TP
+.I ~/.cache/cicatrix/head\-v*.glb
+The default head, made by cicatrix\-fetch\-head(1); XDG_CACHE_HOME replaces ~/.cache.
+.SH EXIT STATUS
+.TP
+.B 0
+All was done.
+.TP
+.B 1
+An error of a file, of an option's value, or of the machine (no Vulkan driver, no display, a full disk); for batch also a variation
+that failed. Standard error names the place, the error and a remedy.
+.TP
+.B 2
+A wrong command line: no command, an unknown command or option, a missing value, or a choice that the option does not have.
+.TP
+.B 130
+Stopped by Ctrl\-C, or by SIGTERM while it was drawing; no incomplete file is left. Any other signal N gives 128 + N.
+.SH EXAMPLES
+.nf
+)";
     return page + troff(program.get_footer()) + "\n.fi\n";
 }
 
