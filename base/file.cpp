@@ -57,10 +57,32 @@ std::string message_of(const json::exception& error)
 
 } // namespace
 
+void check_json_depth(std::string_view text, std::string_view where)
+{
+    constexpr int deepest = 100;
+    int depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"')
+            in_string = !in_string;
+        else if (in_string)
+            i += c == '\\';
+        else if (c == '[' || c == '{')
+            ++depth;
+        else if (c == ']' || c == '}')
+            --depth;
+        if (depth > deepest)
+            throw InputError(where, fmt::format("nests arrays and objects more than {} deep", deepest),
+                             "nothing here needs that; check how the file was made");
+    }
+}
+
 json read_json(const std::filesystem::path& path)
 {
     constexpr std::size_t largest = 64u << 20;
     const std::vector<std::uint8_t> bytes = read_file(path, largest);
+    check_json_depth({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
     try {
         return json::parse(bytes);
     } catch (const json::out_of_range& error) { // "number overflow parsing '1e999'"
@@ -155,7 +177,7 @@ void write_text(const std::filesystem::path& path, std::string_view text)
 
 void write_json(const std::filesystem::path& path, const json& value)
 {
-    write_text(path, value.dump(2) + '\n');
+    write_text(path, value.dump(2, ' ', false, json::error_handler_t::replace) + '\n');
 }
 
 } // namespace base

@@ -18,6 +18,10 @@ namespace base {
 /// or larger than `max_bytes`.
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::size_t max_bytes);
 
+/// Throws InputError at `where` when JSON text nests arrays and objects more than 100 deep: what prints such
+/// a value recurses, and its stack would overflow.
+void check_json_depth(std::string_view text, std::string_view where);
+
 /// Parses a file of at most 64 MB; throws InputError naming the file and, for broken JSON, the line.
 nlohmann::json read_json(const std::filesystem::path& path);
 
@@ -59,6 +63,7 @@ void write_atomically(const std::filesystem::path& path, Write&& write)
 /// Atomic. Throw InputError when the file cannot be written completely.
 void write_bytes(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 void write_text(const std::filesystem::path& path, std::string_view text);
+/// Bytes that are no UTF-8, as names of files may have, are replaced by U+FFFD.
 void write_json(const std::filesystem::path& path, const nlohmann::json& json); // indented
 
 } // namespace base

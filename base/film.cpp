@@ -59,7 +59,7 @@ std::vector<std::string> arguments(cv::Size size, double fps, const std::filesys
         "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bicubic,format=yuv420p",
         "-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
         "-c:v", "libx264", "-preset", "medium", "-crf", "15", "-movflags", "+faststart", "-f", "mp4",
-        file.string()};
+        "file:" + file.string()}; // without "file:", the name 12:30.mp4 has a protocol called 12
 }
 
 } // namespace

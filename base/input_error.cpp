@@ -3,11 +3,13 @@
 #include <cstdlib>
 #include <fmt/format.h>
 
+#include "base/text.hpp"
+
 namespace base {
 
 InputError::InputError(std::string_view where, std::string_view problem, std::string_view cure)
-    : std::runtime_error(fmt::format("{}: {}; {}", where, problem, cure)), where_(where), problem_(problem),
-      cure_(cure)
+    : std::runtime_error(printable(fmt::format("{}: {}; {}", where, problem, cure))), where_(where),
+      problem_(problem), cure_(cure)
 {
 }
 

@@ -7,7 +7,7 @@
 namespace base {
 
 /// what() is one line: "WHERE: PROBLEM; CURE". WHERE names the file and, if there is one, the field
-/// ("scene.json: /wounds/0/width_mm").
+/// ("scene.json: /wounds/0/width_mm"). what() is printable(), the parts are as given.
 class InputError : public std::runtime_error
 {
   public:

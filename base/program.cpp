@@ -2,25 +2,44 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <fmt/format.h>
 #include <fstream>
+#include <iostream>
 #include <sstream>
 #include <time.h>
 #include <unistd.h>
 
 #include "base/interrupt.hpp"
+#include "base/text.hpp"
 
 namespace base {
 namespace {
 
-void print_error(const CLI::App& program, std::string message)
+void print_error(const CLI::App& program, std::string_view message)
 {
-    std::ranges::replace(message, '\n', ' ');
-    fmt::print(stderr, "{}: {}\n", program.get_name(), message);
+    fmt::print(stderr, "{}: {}\n", program.get_name(), printable(message));
+}
+
+/// The exit code of a program that has done its work: 1 if what it printed could not be written, as on a full
+/// disk.
+int finished(const CLI::App& program)
+{
+    errno = 0;
+    if (std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0)
+        return 0;
+    print_error(
+        program,
+        fmt::format(
+            "standard output: cannot be written: {}; check where it goes, and that the disk has space",
+            std::strerror(errno != 0 ? errno : EIO)));
+    return 1;
 }
 
 /// When the kernel made this process, in seconds since 1970; now if /proc cannot be read.
@@ -63,8 +82,10 @@ int run_program(CLI::App& program, int argc, char** argv)
         if (program.get_subcommands().empty())
             throw CLI::RequiredError("A command");
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) // --help
-            return program.exit(error);
+        if (error.get_exit_code() == 0) { // --help
+            program.exit(error);
+            return finished(program);
+        }
         std::string command = program.get_name();
         for (const CLI::App* used : program.get_subcommands())
             command += ' ' + used->get_name();
@@ -77,7 +98,7 @@ int run_program(CLI::App& program, int argc, char** argv)
         print_error(program, error.what());
         return 1;
     }
-    return 0;
+    return finished(program);
 }
 
 } // namespace base

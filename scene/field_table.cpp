@@ -390,7 +390,7 @@ void hash_fields(base::Hash& hash, const Wound& wound, Affects affects)
         if (field.file)
             hash.add(base::file_version(field.file(wound)));
     }
-    hash.add(written.dump());
+    hash.add(written.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 } // namespace scene

@@ -243,7 +243,9 @@ class Capture
     json header() const
     {
         const gpu::DeviceInfo& device = renderer_.device.info();
-        return {{"device", device.name},
+        return {{"format", "cicatrix capture"},
+                {"version", 1},
+                {"device", device.name},
                 {"driver", device.driver},
                 {"software_rasteriser", device.software},
                 {"size", draw_options_.size},

@@ -180,7 +180,9 @@ void LabelFiles::add(const Stage& stage, const scene::Shot& shot, json& entry)
 void LabelFiles::finish()
 {
     writers_.finish();
-    base::write_json(folder_ / "labels.json", {{"classes",
+    base::write_json(folder_ / "labels.json", {{"format", "cicatrix labels"},
+                                               {"version", 1},
+                                               {"classes",
                                                 {{"background", shared::LABEL_BACKGROUND},
                                                  {"skin", shared::LABEL_SKIN},
                                                  {"open_bed", shared::LABEL_OPEN_BED},

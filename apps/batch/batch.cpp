@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "apps/batch/name_locks.hpp"
 #include "base/file.hpp"
 #include "base/image_io.hpp"
 #include "base/input_error.hpp"
@@ -158,8 +159,10 @@ BatchResult run_batch(stage::Renderer& renderer, const std::vector<Variation>& v
 {
     base::make_folder(options.out);
     BatchResult result;
+    NameLocks locks(options.out);
     std::vector<const Variation*> missing;
     for (const Variation& variation : variations) {
+        locks.take(variation.name);
         put_back(variation, options);
         check_place(variation, options);
         if (!is_done(variation, options))

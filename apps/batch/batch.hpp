@@ -31,7 +31,7 @@ struct BatchResult
 
 /// Draws those `variations` that OUT does not contain yet. When one fails (for example, no wound is found in
 /// its photograph), the error is printed at once and the others continue. Throws base::InputError when OUT
-/// cannot be written.
+/// cannot be written, or when another batch is drawing one of them there.
 BatchResult run_batch(stage::Renderer& renderer, const std::vector<Variation>& variations,
                       const BatchOptions& options);
 

@@ -9,6 +9,7 @@
 #include "base/file.hpp"
 #include "base/input_error.hpp"
 #include "base/json_fields.hpp"
+#include "base/text.hpp"
 #include "head/default_head.hpp"
 #include "scene/file.hpp"
 #include "wound/optics/tissue_choice.hpp"
@@ -99,8 +100,9 @@ json& field_of(json& scene, const std::string& column, const std::string& where)
 }
 
 /// Parses a cell as JSON (a number, an array ...); other cells are text.
-json value_of(const std::string& cell)
+json value_of(const std::string& cell, const std::string& where)
 {
+    base::check_json_depth(cell, where);
     json value = json::parse(cell, nullptr, false);
     return value.is_discarded() ? json(cell) : value;
 }
@@ -202,6 +204,8 @@ std::vector<Variation> read_table(const std::filesystem::path& path, const scene
         for (std::size_t k = 0; k < header.size(); ++k) {
             const std::string &column = header[k], &cell = rows[i][k];
             const std::string where = fmt::format("{}, column {}", variation.where, column);
+            if (!base::is_utf8(cell))
+                throw base::InputError(where, "is not UTF-8", "save the table as UTF-8");
             if (column == "scene" || cell.empty())
                 continue;
             if (column == "name") {
@@ -211,9 +215,10 @@ std::vector<Variation> read_table(const std::filesystem::path& path, const scene
             erase_replaced_fields(scene, column, where);
         }
         for (std::size_t k = 0; k < header.size(); ++k)
-            if (header[k] != "scene" && header[k] != "name" && !rows[i][k].empty())
-                field_of(scene, header[k], fmt::format("{}, column {}", variation.where, header[k])) =
-                    value_of(rows[i][k]);
+            if (header[k] != "scene" && header[k] != "name" && !rows[i][k].empty()) {
+                const std::string where = fmt::format("{}, column {}", variation.where, header[k]);
+                field_of(scene, header[k], where) = value_of(rows[i][k], where);
+            }
         check_name(variation.name, variation.where + ", column name", names);
         variation.scene = checked_scene(scene, path, variation.where);
         variations.push_back(std::move(variation));

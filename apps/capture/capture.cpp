@@ -8,6 +8,7 @@
 #include "apps/capture/gallery.hpp"
 #include "base/file.hpp"
 #include "base/number_option.hpp"
+#include "base/text.hpp"
 #include "scene/command_line.hpp"
 #include "stage/capture.hpp"
 #include "stage/labels.hpp"
@@ -54,7 +55,7 @@ void run_capture(CommandOptions& options)
     stage::Renderer renderer(stage::device_options(options));
     const stage::Stage stage(renderer.device, preparation.get());
     for (const std::string& note : stage.loaded().notes)
-        fmt::print(stderr, "note: {}\n", note);
+        fmt::print(stderr, "note: {}\n", base::printable(note));
 
     std::optional<stage::LabelFiles> labels;
     if (options.labels) {

@@ -11,6 +11,7 @@
 #include "base/flip.hpp"
 #include "base/image_io.hpp"
 #include "base/input_error.hpp"
+#include "base/text.hpp"
 #include "base/tone_curve.hpp"
 #include "reference/command_line.hpp"
 #include "scene/file.hpp"
@@ -64,7 +65,7 @@ class Comparison
             days.push_back(compare(shot));
         progress_.clear();
         for (const std::string& note : notes_)
-            fmt::print(stderr, "note: {}\n", note);
+            fmt::print(stderr, "note: {}\n", base::printable(note));
         write(days);
     }
 

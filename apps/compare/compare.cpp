@@ -19,6 +19,7 @@
 #include "base/number_option.hpp"
 #include "base/progress.hpp"
 #include "base/statistics.hpp"
+#include "base/text.hpp"
 #include "scene/command_line.hpp"
 #include "scene/file.hpp"
 #include "scene/shots.hpp"
@@ -106,7 +107,9 @@ void run_compare(const CompareOptions& options)
     const stage::Stage a(renderer.device, first.get()), b(renderer.device, second.get());
     for (const stage::Stage* stage : {&a, &b})
         for (const std::string& note : stage->loaded().notes)
-            fmt::print(stderr, "note: {}: {}\n", name_of(stage == &a ? options.scene : options.other), note);
+            fmt::print(stderr, "note: {}\n",
+                       base::printable(fmt::format(
+                           "{}: {}", name_of(stage == &a ? options.scene : options.other), note)));
     const auto shots = both_shots({&a, &b}, options.views);
 
     base::Progress progress;

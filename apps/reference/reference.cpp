@@ -6,6 +6,7 @@
 
 #include "base/file.hpp"
 #include "base/number_option.hpp"
+#include "base/text.hpp"
 #include "reference/command_line.hpp"
 #include "reference/output.hpp"
 #include "scene/command_line.hpp"
@@ -54,7 +55,7 @@ void run(const CommandOptions& options)
         reference::find_truth(loaded, request, options.until, progress, notes, options.tracing);
     progress.clear();
     for (const std::string& note : notes)
-        fmt::print(stderr, "note: {}\n", note);
+        fmt::print(stderr, "note: {}\n", base::printable(note));
     if (truth.picture.samples() == 0)
         throw base::Interrupted();
     reference::write_truth(options.out, loaded, request, truth);

@@ -196,7 +196,7 @@ std::string report_page(const json& facts, const std::vector<CaseSummary>& summa
            fmt::format("<h2>The scene</h2><details><summary>as JSON</summary><pre>{}</pre></details>\n"
                        "<p class=\"faint\">Shares are GPU and recording time / wall clock from declaring a "
                        "frame to its end. Method: docs/report.md of Cicatrix.</p>\n</body></html>\n",
-                       base::escaped(facts.at("scene").dump(2)));
+                       base::escaped(facts.at("scene").dump(2, ' ', false, json::error_handler_t::replace)));
 }
 
 } // namespace report_command

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "apps/batch/batch.hpp"
+#include "apps/batch/name_locks.hpp"
 #include "apps/batch/variations.hpp"
 #include "base/file.hpp"
 #include "base/image_io.hpp"
@@ -201,6 +202,10 @@ TEST_F(Batch, BadTablesAreRefusedByLineAndColumn)
     EXPECT_THAT(refused("name\n../x\n"), HasSubstr("not a valid folder name"));
     EXPECT_THAT(refused("days\n"), HasSubstr("holds no variations"));
     EXPECT_THAT(refused("days\n\"3\n"), HasSubstr("unclosed quote"));
+    const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
+    EXPECT_THAT(refused("size\n\"" + deep + "\"\n"), HasSubstr("line 2, column size: nests arrays"));
+    EXPECT_THAT(refused("wounds.0.photo\nx\xffy.png\n"),
+                HasSubstr("line 2, column wounds.0.photo: is not UTF-8"));
     const std::string on_a_head = "head,wounds.0.at,wounds.0.photo,tissue\n" + head_;
     EXPECT_THAT(refused(on_a_head + ",elbow,,\n"), HasSubstr("column wounds.0.at: \"elbow\""));
     EXPECT_THAT(refused(on_a_head + ",chin,none.png,\n"),
@@ -289,6 +294,27 @@ TEST_F(Batch, SharesCompleteTheBatchAndAStoppedBatchResumes)
     while (std::getline(table, line))
         ++lines;
     EXPECT_EQ(lines, 5);
+}
+
+TEST_F(Batch, TwoBatchesDoNotDrawTheSameVariationIntoOneFolder)
+{
+    const auto out = folder_ / "out";
+    std::filesystem::create_directories(out);
+    std::filesystem::create_directories(out / ".one.partial"); // what the other batch is drawing
+    {
+        batch_command::NameLocks other(out);
+        other.take("one");
+        folder_.with("table.csv", "name,days\ntwo,0\none,0\n");
+        const Outcome refused = batch({"--out", out.string()});
+        EXPECT_EQ(refused.code, 1);
+        EXPECT_THAT(refused.err, HasSubstr("another batch is drawing \"one\" here"));
+        EXPECT_TRUE(std::filesystem::exists(out / ".one.partial"));
+        EXPECT_FALSE(std::filesystem::exists(out / "two"));
+        EXPECT_EQ(batch({"--out", out.string(), "--share", "1/2"}).code, 0); // two alone
+    }
+    const Outcome after = batch({"--out", out.string()});
+    EXPECT_EQ(after.code, 0) << after.err;
+    EXPECT_THAT(after.out, HasSubstr("1 variations drawn, 1 kept, 0 failed"));
 }
 
 /// Killed after the old variation was set aside and before the new one replaced it.

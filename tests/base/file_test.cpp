@@ -64,6 +64,32 @@ TEST(File, IsWrittenWhole)
     EXPECT_EQ(std::filesystem::file_size(folder / "a.txt"), 0u);
 }
 
+TEST(Json, NestedTooDeeplyIsRefused)
+{
+    const TemporaryFolder folder;
+    const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+    EXPECT_EQ(base::read_json(folder.with("good.json", nested(100))).size(), 1u);
+    for (const std::string& deep :
+         {nested(101), nested(200'000), "{\"a\": " + nested(100) + "}", std::string(200'000, '[')})
+        try {
+            base::read_json(folder.with("deep.json", deep));
+            ADD_FAILURE() << "nothing was refused";
+        } catch (const base::InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("deep.json: nests arrays and objects more than 100 deep"));
+        }
+    // Brackets inside a string, also behind an escaped quote, nest nothing.
+    const std::string brackets(1000, '[');
+    EXPECT_EQ(base::read_json(folder.with("text.json", "[\"a\\\"" + brackets + "\\\\\"]"))[0],
+              "a\"" + brackets + "\\");
+}
+
+TEST(Json, NamesThatAreNotUtf8AreWrittenAllTheSame)
+{
+    const TemporaryFolder folder;
+    base::write_json(folder / "a.json", {{"photo", "p\xffq.png"}});
+    EXPECT_EQ(base::read_json(folder / "a.json").at("photo"), "p\ufffdq.png");
+}
+
 TEST(FileVersion, ChangesWithThePathAndTheTime)
 {
     const TemporaryFolder folder;
