@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <iterator>
 
+#include "passes/chang.hpp"
 #include "passes/diffusion.hpp"
 #include "passes/screen_diffusion.hpp"
 #include "passes/shadow.hpp"
@@ -27,28 +28,30 @@ struct OnSkin
 {
     std::optional<SkinLight> kept;
     std::optional<DiffusedLight> around;
+    std::optional<SkinSamples> samples;
     Shadows shadows;
     graph::ImageId shadow_depth;
 };
 
 OnSkin add_light_on_skin(graph::Graph& graph, const FrameInput& input, ForwardInput on_skin)
 {
-    const bool diffused = input.shading.transport == optics::Transport::Diffused && input.diffusion_scale &&
-                          input.shading.lambertian();
+    const bool received = input.shading.on_atlas() && input.diffusion_scale && input.shading.lambertian();
     OnSkin result;
-    if (!input.skin || (!input.kept_scale && !diffused))
+    if (!input.skin || (!input.kept_scale && !received))
         return result;
     if (input.shading.shadow)
         on_skin.shadows = fit_shadows(on_skin.lights, input.head.min, input.head.max, {}, kept_shadow_size);
     const bool kept = input.kept_scale && can_keep_light(input.shading, on_skin.shadows);
-    if (!kept && !diffused)
+    if (!kept && !received)
         return result;
     if (on_skin.shadows.casting != 0)
         on_skin.shadow_depth = add_shadows(graph, "skin shadow", on_skin.shadows, *input.head.caster_mesh,
                                            input.head.casters, kept_shadow_size);
     result.shadows = on_skin.shadows;
     result.shadow_depth = on_skin.shadow_depth;
-    if (diffused)
+    if (received && input.shading.transport == optics::Transport::Chang)
+        result.samples = add_skin_samples(graph, on_skin, *input.skin, *input.diffusion_scale, input.shading);
+    else if (received)
         result.around = add_diffusion(graph, on_skin, *input.skin, *input.diffusion_scale, input.shading);
     on_skin.around = result.around ? &*result.around : nullptr;
     if (kept)
@@ -64,6 +67,19 @@ std::size_t first_of_tissue(std::span<const FrameWound> wounds, std::size_t i)
     while (&wounds[first].tissue != &wounds[i].tissue)
         ++first;
     return first;
+}
+
+/// The skin's light spreads; without `samples` (the head has no atlas) transport `chang` is drawn as
+/// `burley`.
+graph::ImageId spread_in_picture(graph::Graph& graph, const FrameInput& input, const ForwardImages& drawn,
+                                 const std::optional<SkinSamples>& samples)
+{
+    const bool sampled = input.shading.transport == optics::Transport::Chang && samples;
+    const ScreenDiffusion diffusion =
+        screen_diffusion(input.camera, input.tile, input.head, input.tissue, input.shading.transport);
+    return sampled ? add_chang(graph, drawn, diffusion, *samples,
+                               chang_view(input.camera, input.tile, input.tissue))
+                   : add_screen_diffusion(graph, drawn, diffusion);
 }
 
 } // namespace
@@ -125,11 +141,8 @@ FrameImages add_frame(graph::Graph& graph, const FrameInput& input)
     if (forward.developed)
         images.picture = drawn.radiance;
     else {
-        images.radiance = drawn.apart
-                              ? add_screen_diffusion(graph, drawn,
-                                                     screen_diffusion(input.camera, input.tile, input.head,
-                                                                      input.tissue, input.shading.transport))
-                              : drawn.radiance;
+        images.radiance =
+            drawn.apart ? spread_in_picture(graph, input, drawn, on_skin.samples) : drawn.radiance;
         images.picture =
             add_tonemap(graph, images.radiance, input.exposure_stops, Highlights::SoftShoulder, backdrop);
     }

@@ -95,7 +95,7 @@ graph::ImageId add_screen_diffusion(graph::Graph& graph, const ForwardImages& dr
         }
         return {pass, spread};
     };
-    if (diffusion.transport == optics::Transport::Burley) {
+    if (diffusion.transport != optics::Transport::Separable) {
         const auto [pass, spread] = add("burley", "burley.comp", apart.received, "radiance");
         pass.uniform("Diffusion_", disc(diffusion.tissue));
         return spread;

@@ -56,8 +56,10 @@ SkinLight add_light(graph::Graph& graph, const ForwardInput& input, const Skin& 
 {
     const std::string kind = code ? "" : "coarse ";
     const bool spreads = code && input.around;
-    const optics::Transport transport =
-        spreads || !code ? optics::Transport::Diffused : shading.pointwise_transport();
+    const optics::Transport transport = spreads || !code ? shading.transport == optics::Transport::Chang
+                                                               ? optics::Transport::Lambert
+                                                               : optics::Transport::Diffused
+                                                         : shading.pointwise_transport();
     const glm::uvec2 size(glm::dvec2(skin.size) * scale);
     const graph::ImageDesc desc{size.x, size.y, VK_FORMAT_R8G8B8A8_UNORM};
     // Eight bits of reflectance and light would differ by .45 instead of .23 CIEDE2000 from what every pixel

@@ -136,10 +136,12 @@ Stage::Set Stage::make(const scene::Scene& scene) const
         set.loaded.notes.push_back(fmt::format(
             "scene: /wounds: more than {0} wounds reach the same skin; there the {0} nearest ones are drawn",
             shared::WOUNDS_HERE));
-    if (scene.shading.transport == optics::Transport::Diffused && passes::kept_materials(model).empty())
-        set.loaded.notes.push_back("scene: /head: it has no skin that is opaque and seen from one side: "
-                                   "light does not spread over it "
-                                   "(shading.transport is drawn as preintegrated)");
+    if (scene.shading.on_atlas() && passes::kept_materials(model).empty())
+        set.loaded.notes.push_back(
+            fmt::format("scene: /head: it has no skin that is opaque and seen from one side: light does not "
+                        "spread over it "
+                        "(shading.transport is drawn as {})",
+                        scene.shading.transport == optics::Transport::Diffused ? "preintegrated" : "burley"));
     return set;
 }
 
@@ -284,14 +286,15 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
         graph.keep(wound.maps.shape);
     }
     graph.keep(set_.wounded);
-    const bool diffused = shading.transport == optics::Transport::Diffused && request.lights_rest;
-    const passes::Skin* spread = request.light_scale || diffused ? skin() : nullptr;
+    const bool received =
+        shading.on_atlas() && (request.lights_rest || shading.transport != optics::Transport::Diffused);
+    const passes::Skin* spread = request.light_scale || received ? skin() : nullptr;
     if (spread)
         graph.keep(spread_.skin);
     const optics::TissueSpread tissue = tissue_spread(shading);
     const head::Camera camera = request.camera.value_or(set_.loaded.camera());
     std::optional<double> diffusion_scale;
-    if (spread && diffused) {
+    if (spread && received) {
         // Kept light stands while the camera moves.
         const double pixel_m = request.light_scale
                                    ? spread->texel_m / (2 * *request.light_scale)

@@ -34,7 +34,8 @@ namespace shared {
     MODEL(3, Diffused, diffused, TRANSPORT_DIFFUSED) /* the same, from the light all around: d'Eon 2007, Burley 2015 */         \
     MODEL(4, OrenNayar, oren-nayar, TRANSPORT_OREN_NAYAR) /* where it entered, from rough facets under a gloss: Gotanda 2012 */ \
     MODEL(5, Separable, separable, TRANSPORT_SEPARABLE) /* spread in the picture, along x and then y: Jimenez 2015 */           \
-    MODEL(6, Burley, burley, TRANSPORT_BURLEY) /* spread in the picture, over a disc of samples: Golubev 2018 */
+    MODEL(6, Burley, burley, TRANSPORT_BURLEY) /* spread in the picture, over a disc of samples: Golubev 2018 */                \
+    MODEL(7, Chang, chang, TRANSPORT_CHANG) /* spread from samples of all the skin, and nearby in the picture: Chang 2008 */
 
 #define MODEL_CONSTANT(number, enumerator, name, constant) CONSTANT constant = number;
 WARD_MODELS(MODEL_CONSTANT)

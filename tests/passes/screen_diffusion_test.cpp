@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "engine/gpu/texture.hpp"
+#include "passes/chang.hpp"
 #include "tests/support/gpu.hpp"
+#include "wound/optics/dipole.hpp"
 #include "wound/optics/separable.hpp"
 
 namespace {
@@ -33,7 +35,17 @@ struct Seen
     }
 };
 
-/// The light that is shown, per reflectance.
+optics::TissueSpread slab()
+{
+    optics::TissueSpread tissue;
+    for (int c = 0; c < 3; ++c) {
+        tissue.width_mm[c] = widths_mm[c];
+        tissue.scattering_length_mm[c] = widths_mm[c] / white[c];
+    }
+    return tissue;
+}
+
+/// The light that is shown, per reflectance. Of `chang` what is gathered nearby.
 cv::Mat4f shown(const Seen& seen, optics::Transport transport, double pixels_per_mm)
 {
     const auto half = [](const cv::Mat4f& values) {
@@ -50,11 +62,9 @@ cv::Mat4f shown(const Seen& seen, optics::Transport transport, double pixels_per
         reflectance(device, half(seen.reflectance), gpu::Encoding::Linear, false, "reflectance"),
         distance(device, wide, gpu::Encoding::Linear, false, "distance"),
         specular(device, half(seen.specular), gpu::Encoding::Linear, false, "specular");
-    optics::TissueSpread tissue;
-    for (int c = 0; c < 3; ++c) {
-        tissue.width_mm[c] = widths_mm[c];
-        tissue.scattering_length_mm[c] = widths_mm[c] / white[c];
-    }
+    const optics::TissueSpread tissue = slab();
+    const cv::Mat4f none(1, shared::CHANG_SAMPLES, cv::Vec4f::all(0));
+    const gpu::Texture nowhere(device, none, gpu::Encoding::Linear, false, "none");
     graph::Graph graph;
     const passes::ForwardImages drawn{
         .radiance = graph.import("specular", specular),
@@ -69,8 +79,14 @@ cv::Mat4f shown(const Seen& seen, optics::Transport transport, double pixels_per
                  .scattering = 1e-3f * glm::vec3(length[0], length[1], length[2])},
         .tissue = tissue,
         .reach = shared::PICTURE_REACH};
+    shared::ChangView view{};
+    if (transport == optics::Transport::Chang)
+        view = passes::chang_view({}, std::array<std::uint32_t, 2>{side, side}, tissue);
+    const graph::ImageId empty = graph.import("none", nowhere);
     const graph::ReadbackId back =
-        graph.readback("shown", passes::add_screen_diffusion(graph, drawn, diffusion));
+        graph.readback("shown", transport == optics::Transport::Chang
+                                    ? passes::add_chang(graph, drawn, diffusion, {empty, empty}, view)
+                                    : passes::add_screen_diffusion(graph, drawn, diffusion));
     gpu::Executor executor(device, gpu_test::shaders());
     cv::Mat4f result;
     executor.run(graph).mat(back).convertTo(result, CV_32F);
@@ -89,6 +105,8 @@ Seen half_lit()
             seen.skin(x, y, x >= side / 2 ? 1 : 0);
     return seen;
 }
+
+using ChangInPicture = gpu_test::Test;
 
 class InPicture : public gpu_test::Test, public testing::WithParamInterface<optics::Transport>
 {
@@ -187,6 +205,45 @@ TEST_P(InPicture, LeavesLightWhereItIsWhenAPixelIsWide)
     const cv::Mat4f light = shown(half_lit(), GetParam(), .05); // a pixel of 20 mm
     for (int x = 0; x < side; ++x)
         ASSERT_NEAR(light(side / 2, x)[0], x >= side / 2 ? 1 : 0, .03) << x;
+}
+
+// Against the dipole itself, whose light within a disc is known: a circle of radius r about a point in the
+// dark has the share acos(x/r) / pi in the light.
+TEST_F(ChangInPicture, GathersWhatTheDipoleBringsFromNearby)
+{
+    constexpr double pixels_per_mm = 20;
+    const cv::Mat4f light = shown(half_lit(), optics::Transport::Chang, pixels_per_mm);
+    const optics::DipoleInversion inversion(1.4);
+    for (int c = 0; c < 3; ++c) {
+        const optics::Dipole dipole = inversion.dipole_of(white[c], widths_mm[c] / white[c]);
+        for (const double x_mm : {.1, .5, 1., 2.}) {
+            double expected = 0;
+            for (double r = x_mm; r < 30; r += .01)
+                expected += (dipole.within(r + .01) - dipole.within(r)) / dipole.total() *
+                            std::acos(x_mm / (r + .005)) / CV_PI;
+            const double place = side / 2. - .5 - x_mm * pixels_per_mm;
+            const int left = int(std::floor(place));
+            double left_mean = 0, right_mean = 0;
+            for (int y = 0; y < side; ++y) {
+                left_mean += light(y, left)[c] / side;
+                right_mean += light(y, left + 1)[c] / side;
+            }
+            EXPECT_NEAR(std::lerp(left_mean, right_mean, place - left), expected, .03)
+                << x_mm << " mm, " << c;
+        }
+    }
+}
+
+TEST_F(ChangInPicture, GathersAlmostAllOfEvenLight)
+{
+    Seen seen;
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            seen.skin(x, y, 1);
+    const cv::Mat4f light = shown(seen, optics::Transport::Chang, 5);
+    EXPECT_NEAR(light(side / 2, side / 2)[0], .99, 3e-3); // the rest is left to the samples
+    EXPECT_GE(light(side / 2, side / 2)[2], .989);
+    EXPECT_LE(light(side / 2, side / 2)[2], 1.003);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "shading_cases.hpp"
+#include "wound/optics/dipole.hpp"
 #include "wound/optics/specular.hpp"
 #include "wound/optics/transport.hpp"
 
@@ -315,5 +316,28 @@ TEST_F(ShadingOnGpu, SurroundingsLeftEqualsTheReference)
     for (std::size_t n = 0; n < cases.size(); ++n)
         EXPECT_LT(max_difference(values[n], references[n]),
                   5e-5 * cv::norm(references[n], cv::NORM_INF) + 1e-6)
+            << n;
+}
+
+TEST_F(ShadingOnGpu, DipoleEqualsTheReference)
+{
+    std::vector<ShadingCase> cases;
+    std::vector<cv::Vec3d> references;
+    for (const float r2 : {0.f, 1e-4f, .01f, .3f, 1.f, 10.f, 100.f, 1e4f})
+        for (const float transport : {.05f, .5f, 2.f}) {
+            ShadingCase c{};
+            c.formula = shared::FORMULA_DIPOLE;
+            c.a = glm::vec3(transport, 2 * transport, 3 * transport);
+            c.b = {.1f, .5f, 2};
+            c.c = {.4f, 1.5f, 2};
+            c.number = r2;
+            cases.push_back(c);
+            cv::Vec3d& reference = references.emplace_back();
+            for (int i = 0; i < 3; ++i)
+                reference[i] = optics::DipoleSources{c.a[i], c.b[i], c.c[i]}.at_squared(r2);
+        }
+    const std::vector<glm::vec3> values = evaluate(cases);
+    for (std::size_t n = 0; n < cases.size(); ++n)
+        EXPECT_LT(max_difference(values[n], references[n]), 2e-5 * cv::norm(references[n], cv::NORM_INF) + 1e-12)
             << n;
 }

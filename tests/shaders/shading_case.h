@@ -24,6 +24,7 @@ CONSTANT FORMULA_VISIBILITY = 11;       // number = open, a = albedo
 CONSTANT FORMULA_AMBIENT_SPECULAR = 12; // number = cosine -> x
 CONSTANT FORMULA_SPECULAR_OCCLUSION = 13; // number = open, a.x = cosine -> x; a.y = cosine of above_horizon() -> y, of bounced_share() -> z
 CONSTANT FORMULA_SURROUNDINGS_LEFT = 14; // a = albedo, b = seen, transport, curvature, thinness
+CONSTANT FORMULA_DIPOLE = 15; // a = transport, b = depth, c = image, number = r^2
 
 struct ShadingCase
 {

@@ -5,6 +5,7 @@
 #include "shading_case.h"
 #include "lib/blend.glsl"
 #include "lib/color.glsl"
+#include "lib/dipole.glsl"
 #include "lib/frame.glsl"
 #include "lib/shading.glsl"
 
@@ -47,6 +48,7 @@ vec3 evaluate(ShadingCase c)
     case FORMULA_BEND: return bend_to_viewer(c.a, c.b);
     case FORMULA_SHADE: return shade(c);
     case FORMULA_SURROUNDINGS_LEFT: return left_of_surroundings(c);
+    case FORMULA_DIPOLE: return dipole_share(Dipole(c.a, c.b, c.c, vec3(1.0)), c.number);
     case FORMULA_VISIBILITY: return visibility(c.number, c.a);
     case FORMULA_SPECULAR_OCCLUSION: return vec3(specular_occlusion(c.number, c.a.x), above_horizon(c.a.y), bounced_share(c.number, c.a.y));
     case FORMULA_AMBIENT_SPECULAR: return vec3(ambient_specular(c.params, Finish(c.wetness, 0.0), c.number));

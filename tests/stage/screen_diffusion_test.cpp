@@ -59,11 +59,14 @@ double difference(const cv::Mat4b& a, const cv::Mat4b& b)
     return sum / double(a.total());
 }
 
+using ChangSamples = gpu_test::Test;
+
 class SpreadInPicture : public gpu_test::Test, public testing::WithParamInterface<Transport>
 {
 };
 INSTANTIATE_TEST_SUITE_P(Transports, SpreadInPicture,
-                         testing::Values(Transport::Separable, Transport::Burley), [](const auto& tested) {
+                         testing::Values(Transport::Separable, Transport::Burley, Transport::Chang),
+                         [](const auto& tested) {
                              return optics::transport_names[std::size_t(tested.param)];
                          });
 
@@ -131,11 +134,55 @@ TEST_P(SpreadInPicture, RunsItsPassesForACameraAndItsRegionsHoldAllThatADayChang
     studio.request.camera->eye.x += .001;
     const std::vector<std::string> ran = gpu_test::ran(studio.draw());
     std::vector<std::string> expected{"forward", "tonemap"};
-    if (GetParam() == Transport::Burley)
-        expected.push_back("burley");
+    if (GetParam() != Transport::Separable)
+        expected.push_back(optics::transport_names[std::size_t(GetParam())]);
     else
         expected.insert(expected.end(), {"separable x", "separable y"});
     EXPECT_THAT(ran, testing::IsSupersetOf(expected));
+}
+
+// All samples together are the light on all the skin: here its area, as far as it is open to the light around
+// it.
+TEST_F(ChangSamples, AreTheLightOnAllTheSkin)
+{
+    const head::Model model = small::head();
+    scene::Scene scene = small::scene(model);
+    scene.wounds.clear();
+    scene.lights.clear();
+    scene.shading.transport = Transport::Chang;
+    scene.shading.ambient = {1, 1, 1};
+    const stage::Stage stage(gpu_test::device(), stage::Stage::prepare(scene));
+    graph::Graph graph;
+    graph.readback("picture", stage.declare(graph, {.tile = scene.size}).images.picture);
+    const auto back = [&](const char* name) {
+        const auto found = std::ranges::find(graph.images, name, &graph::Graph::Image::name);
+        return graph.readback(name, {std::uint32_t(found - graph.images.begin())});
+    };
+    const graph::ReadbackId lights = back("sample lights"), places = back("sample places");
+    gpu::Executor executor(gpu_test::device(), gpu_test::shaders());
+    const gpu::FrameResult frame = executor.run(graph);
+    const cv::Mat4f light = frame.mat(lights), place = frame.mat(places);
+
+    double area_mm2 = 0;
+    glm::dvec3 middle(0);
+    for (std::size_t i = 0; i + 2 < model.indices.size(); i += 3) {
+        const auto at = [&](std::size_t k) {
+            return 1e3 * glm::dvec3(model.vertices[model.indices[i + k]].position);
+        };
+        const double area = .5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
+        area_mm2 += area;
+        middle += area / 3 * (at(0) + at(1) + at(2));
+    }
+    middle /= area_mm2;
+    double sum = 0;
+    glm::dvec3 mean(0);
+    for (int i = 0; i < light.cols; ++i) {
+        sum += light(0, i)[1];
+        mean += glm::dvec3(place(0, i)[0], place(0, i)[1], place(0, i)[2]) / double(light.cols);
+    }
+    EXPECT_GT(sum, .85 * area_mm2);
+    EXPECT_LT(sum, 1.01 * area_mm2);
+    EXPECT_LT(glm::distance(mean, middle), 8); // mm, of a head of 230
 }
 
 } // namespace

@@ -85,8 +85,14 @@ struct Shading
     {
         return transport == Transport::Diffused ? Transport::Preintegrated : drawn_transport();
     }
-    /// Light spreads in the picture (passes/screen_diffusion.hpp): `separable` and `burley`.
-    bool in_picture() const { return transport == Transport::Separable || transport == Transport::Burley; }
+    /// Light spreads in the picture (passes/screen_diffusion.hpp): `separable`, `burley` and `chang`.
+    bool in_picture() const
+    {
+        return transport == Transport::Separable || transport == Transport::Burley ||
+               transport == Transport::Chang;
+    }
+    /// The light that the skin receives is asked for on its atlas.
+    bool on_atlas() const { return transport == Transport::Diffused || transport == Transport::Chang; }
     /// Asks for the tissue's scattering length (optics/transport.hpp).
     bool spreads() const
     {

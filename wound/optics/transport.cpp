@@ -211,7 +211,7 @@ base::Color leaving(const Shading& shading, const ShadedPoint& point, const cv::
 {
     if (shading.transport == Transport::Preintegrated || shading.transport == Transport::Diffused)
         return spread(shading, point, to_light, incident, visibility, map);
-    if (shading.in_picture())
+    if (shading.transport == Transport::Separable || shading.transport == Transport::Burley)
         return lit_and_passed(shading, point, to_light, incident, visibility, map);
     if (shading.transport == Transport::OrenNayar)
         return shading.rho_d * visibility *
