@@ -80,7 +80,7 @@ graph::ImageId add_screen_diffusion(graph::Graph& graph, const ForwardImages& dr
         graph::ComputePass& pass = graph.compute(name, shader);
         pass.sample("received", received);
         pass.sample("reflectance", apart.reflectance, graph::Sampler::NearestClamp);
-        pass.sample("distances", apart.distance); // between pixels too, as the light
+        pass.sample("distances", apart.distance, graph::Sampler::NearestClamp);
         pass.sample("specular", drawn.radiance, graph::Sampler::NearestClamp);
         pass.uniform("Tile_", diffusion.tile);
         pass.store("spread", spread);

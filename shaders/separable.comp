@@ -33,7 +33,7 @@ void main()
         const vec2 at = clamp(vec2(p) + 0.5 + tap.a * pixels * direction, tile.low + 0.5, tile.high - 0.5);
         const vec4 there = textureLod(received, at / vec2(size), 0); // between pixels
         const float share = max(1.0 - there.a, LEAST_SKIN);
-        const float gap = textureLod(distances, at / vec2(size), 0).r / share - here.distance_m;
+        const float gap = texelFetch(distances, ivec2(at), 0).r / share - here.distance_m;
         // Our reading of the authors' constant, which belongs to their scene: all is refused at the kernel's own reach.
         const float refused = 1.0 - there.a < LEAST_SKIN ? 1.0 : min(abs(gap) / (SEPARABLE_REACH * widest), 1.0);
         sum += tap.rgb * mix(there.rgb / share, here.light, refused);

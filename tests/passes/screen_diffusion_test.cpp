@@ -196,7 +196,7 @@ TEST_P(InPicture, DoesNotSpreadToWhatIsBehind)
     const cv::Mat4f light = shown(seen, GetParam(), 10);
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x)
-            ASSERT_NEAR(light(y, x)[0], x >= side / 2 ? 1 : 0, .02)
+            ASSERT_NEAR(light(y, x)[0], x >= side / 2 ? 1 : 0, .07)
                 << x << ", " << y; // taps between pixels mix
 }
 
