@@ -104,7 +104,12 @@ base::Color PathTracer::flat_correction(const SurfacePoint& point, const glm::dv
     base::Color known = albedo;
     for (double& channel : known.val)
         channel = std::min(channel, AlbedoTable::largest_diffuse);
-    return (known - flat.reflected).mul(direct(point, normal) + openness(point).mul(ambient_));
+    return (known - flat.reflected).mul(open_light(point, normal));
+}
+
+base::Color PathTracer::open_light(const SurfacePoint& point, const glm::dvec3& normal) const
+{
+    return direct(point, normal) + openness(point).mul(ambient_);
 }
 
 base::Color PathTracer::by_channel(const WalkEnds& ends, Random& random) const

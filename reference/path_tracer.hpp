@@ -39,7 +39,10 @@ class PathTracer
 
     /// Light of the lights that falls on a point, as the radiance of a white diffuser there.
     base::Color direct(const SurfacePoint& point, const glm::dvec3& normal) const;
-    /// All other light that falls there: received() without it.
+    /// The light that would fall there if nothing of the head stood in the surroundings' way but a wound's
+    /// hollow.
+    base::Color open_light(const SurfacePoint& point, const glm::dvec3& normal) const;
+    /// All light but the lights' that falls there: received() without direct().
     base::Color indirect(const SurfacePoint& point, const glm::dvec3& normal, const base::Color& importance,
                          int bounce, Random& random) const;
     /// What leaves the skin through a walk's exits, one of each channel.

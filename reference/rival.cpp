@@ -16,13 +16,14 @@ constexpr double farthest = 9;          // in 1 / sigma_tr: a thousandth of a di
 constexpr int walks_per_ray = 4;        // of li
 constexpr std::uint64_t rival_seed = 0x21;
 
-/// A medium's dipole, in metres.
-optics::DiffusiveMedium diffusive(const Medium& medium, int channel)
+/// The dipole of a source so deep in the medium, metres.
+optics::DipoleSources core_sources(const Medium& medium, int channel, double depth)
 {
     const double albedo = medium.single_albedo[channel], extinction = medium.extinction[channel];
     const double scattering = extinction * albedo * (1 - medium.g), absorption = extinction * (1 - albedo);
-    return {scattering / (scattering + absorption), scattering + absorption,
-            optics::boundary_factor(medium.n)};
+    const optics::DiffusiveMedium core{scattering / (scattering + absorption), scattering + absorption,
+                                       optics::boundary_factor(medium.n)};
+    return {core.transport(), depth, depth + 2 * core.outside()};
 }
 
 /// Whether the scenes differ in nothing but lights, cameras and what the rasteriser alone looks at.
@@ -108,11 +109,11 @@ cv::Mat4f Rival::draw(const scene::LoadedScene& scene, const head::Camera& camer
     prepare(scene, day);
     if (shown_.camera == camera && shown_.size == size && shown_.rays_per_axis == rays_per_axis)
         return shown_.picture;
-    const PathTracer::SkinLight skin_light = [this](const SurfacePoint& point, const glm::dvec3&,
+    const PathTracer::SkinLight skin_light = [this](const SurfacePoint& point, const glm::dvec3& normal,
                                                     Random& random) {
         return method_ == RivalMethod::Jensen         ? by_dipole(point)
                : method_ == RivalMethod::DonnerJensen ? by_layers(point)
-                                                      : by_walks(point, random);
+                                                      : by_walks(point, normal, random);
     };
     cv::Mat4f picture(size);
     base::in_parallel(std::size_t(size.height), 0, [&](std::size_t y) {
@@ -185,12 +186,13 @@ base::Color Rival::by_layers(const SurfacePoint& point) const
     return mm2_per_m2 * albedo.mul(per_m2);
 }
 
-base::Color Rival::by_walks(const SurfacePoint& point, Random& random) const
+base::Color Rival::by_walks(const SurfacePoint& point, const glm::dvec3& normal, Random& random) const
 {
     const base::Color albedo = day_->scene.scene.shading.rho_d * point.skin.skin.albedo;
     const Medium medium = day_->wounds.medium(point.skin, albedo);
     const double core = largest_path_m(medium);
-    double depth = 0; // of the place where the walk has stopped
+    const HalfSpace flat_body(point.at, point.flat);
+    double depth = 0, flat_depth = 0; // of the places where the walks have stopped
     const StopsAt stops_at = [&](const glm::dvec3& at) {
         if (glm::distance(at, point.at) < core)
             return false;
@@ -198,28 +200,44 @@ base::Color Rival::by_walks(const SurfacePoint& point, Random& random) const
         depth = found.value_or(0);
         return found.has_value();
     };
-    base::Color sum(0, 0, 0);
+    const StopsAt stops_flat = [&](const glm::dvec3& at) {
+        flat_depth = glm::dot(point.at - at, point.flat);
+        return flat_depth >= core;
+    };
+    base::Color sum(0, 0, 0), flat_sum(0, 0, 0);
     for (int walk = 0; walk < walks_per_ray; ++walk) {
-        const WalkEnds ends =
-            random_walk(medium, day_->surfaces, point.at, point.flat, random.bits(), stops_at);
+        const std::uint64_t key = random.bits();
+        const WalkEnds ends = random_walk(medium, day_->surfaces, point.at, point.flat, key, stops_at);
         sum += day_->tracer.by_channel(ends, random);
-        if (ends.stopped == base::Color(0, 0, 0))
-            continue;
-        std::array<optics::DipoleSources, 3> sources;
-        double reach = 0;
-        for (int c = 0; c < 3; ++c) {
-            const optics::DiffusiveMedium core_medium = diffusive(medium, c);
-            sources[std::size_t(c)] = {core_medium.transport(), depth, depth + 2 * core_medium.outside()};
-            reach = std::max(reach, farthest / core_medium.transport() + depth);
-        }
-        const double above2 = depth * depth;
-        sum += ends.stopped.mul(light_->gathered(ends.stopped_at, reach, solid_angle, [&](double distance2) {
-            const double r2 = std::max(distance2 - above2, 0.0); // along the surface
-            return base::Color(sources[0].at_squared(r2), sources[1].at_squared(r2),
-                               sources[2].at_squared(r2));
-        }));
+        if (ends.stopped != base::Color(0, 0, 0))
+            sum += from_core(medium, ends, depth);
+        const WalkEnds flat = random_walk(medium, flat_body, point.at, point.flat, key, stops_flat);
+        flat_sum += flat.reflected;
+        if (flat.stopped != base::Color(0, 0, 0))
+            for (int c = 0; c < 3; ++c)
+                flat_sum[c] += flat.stopped[c] * core_sources(medium, c, flat_depth).total();
     }
-    return sum / double(walks_per_ray);
+    // The reference's control variate: the same walks in a half space, whose albedo is known.
+    base::Color known = albedo;
+    for (double& channel : known.val)
+        channel = std::min(channel, AlbedoTable::largest_diffuse);
+    return sum / double(walks_per_ray) +
+           (known - flat_sum / double(walks_per_ray)).mul(day_->tracer.open_light(point, normal));
+}
+
+base::Color Rival::from_core(const Medium& medium, const WalkEnds& ends, double depth) const
+{
+    std::array<optics::DipoleSources, 3> sources;
+    double reach = 0;
+    for (int c = 0; c < 3; ++c) {
+        sources[std::size_t(c)] = core_sources(medium, c, depth);
+        reach = std::max(reach, farthest / sources[std::size_t(c)].transport + depth);
+    }
+    const double above2 = depth * depth;
+    return ends.stopped.mul(light_->gathered(ends.stopped_at, reach, solid_angle, [&](double distance2) {
+        const double r2 = std::max(distance2 - above2, 0.0); // along the surface
+        return base::Color(sources[0].at_squared(r2), sources[1].at_squared(r2), sources[2].at_squared(r2));
+    }));
 }
 
 std::size_t Rival::bytes() const

@@ -2,18 +2,17 @@
 // reference's surfaces, tissue, lights, shadows and cameras. Each has its own way of light under the skin;
 // light from skin to skin and highlights are the path tracer's.
 //
-// jensen         H. Jensen, S. Marschner, M. Levoy, P. Hanrahan 2001: the dipole. H. Jensen, J. Buhler 2002:
-// the irradiance
-//                at samples on the surface, no farther apart than the channels' mean of the mean free path,
-//                summed by an octree.
-// donner-jensen  C. Donner, H. Jensen 2005: the same sum with the profile of the scene's layers, each a
-// multipole. Textures
-//                multiply the profile, as theirs do. A wound's bed and new skin have layers of their own.
-// li             H. Li, F. Pellacini, K. Torrance 2005, "A hybrid Monte Carlo method for accurate and
-// efficient subsurface
-//                scattering": random walks as in the reference, until they are deeper than the longest mean
-//                free path. From there a dipole whose source lies at that depth spreads the rest, by the same
-//                octree.
+// - jensen: the dipole of H. Jensen, S. Marschner, M. Levoy, P. Hanrahan 2001, by the two passes of H.
+// Jensen,
+//   J. Buhler 2002: irradiance at samples on the surface, no farther apart than the channels' mean of the
+//   mean free path, summed by an octree.
+// - donner-jensen: C. Donner, H. Jensen 2005. The same sum with the profile of the scene's layers, each a
+//   multipole. Textures multiply the profile, as theirs do. A wound's bed and new skin have layers of their
+//   own.
+// - li: H. Li, F. Pellacini, K. Torrance 2005, "A hybrid Monte Carlo method for accurate and efficient
+//   subsurface scattering". Random walks as in the reference, until they are deeper than the longest mean
+//   free path. From there a dipole whose source lies at that depth spreads the rest, by the same octree. The
+//   reference's control variate takes the noise away where skin is flat and evenly lit.
 //
 // Tissue: jensen has at every point the diffuse albedo that the reference has there, by albedo inversion, and
 // of all mean free paths the one with which the dipole's edge response is nearest (optics::DipoleInversion).
@@ -68,7 +67,9 @@ class Rival
     void prepare(const scene::LoadedScene& scene, double day);
     base::Color by_dipole(const SurfacePoint& point) const;
     base::Color by_layers(const SurfacePoint& point) const;
-    base::Color by_walks(const SurfacePoint& point, Random& random) const;
+    base::Color by_walks(const SurfacePoint& point, const glm::dvec3& normal, Random& random) const;
+    /// What leaves of a walk that has stopped at a depth.
+    base::Color from_core(const Medium& medium, const WalkEnds& ends, double depth) const;
 
     const RivalMethod method_;
     std::shared_ptr<SurfaceLight> light_;
