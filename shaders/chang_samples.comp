@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_control_flow_attributes : require
 // Chang et al. 2008, "Real-time translucent rendering using GPU-based texture space importance sampling": samples of the
 // skin, the same for all pixels, by the warping of even numbers down the pyramid of importance.
 #include "lib/chang.glsl"
@@ -33,6 +32,15 @@ void choose(float parts[16], inout float number, inout float chance, inout ivec2
     cell = 4 * cell + ivec2(chosen & 3, chosen >> 2);
 }
 
+// A macro, because lavapipe reads nothing from an array of textures by an index that is not constant.
+#define DESCEND(k)                                                                                            \
+    for (int i = 0; i < 16; ++i)                                                                              \
+    {                                                                                                         \
+        const ivec2 at = 4 * cell + ivec2(i & 3, i >> 2);                                                     \
+        parts[i] = all(lessThan(at, textureSize(levels[k], 0))) ? texelFetch(levels[k], at, 0).r : 0.0;       \
+    }                                                                                                         \
+    choose(parts, number, chance, cell);
+
 void main()
 {
     const int n = int(gl_GlobalInvocationID.x);
@@ -41,16 +49,7 @@ void main()
     float number = (float(n) + 0.5) / float(CHANG_SAMPLES), chance = 1;
     ivec2 cell = ivec2(0);
     float parts[16];
-    [[unroll]] for (int k = CHANG_LEVELS - 2; k >= 0; --k)
-    {
-        const ivec2 size = textureSize(levels[k], 0);
-        for (int i = 0; i < 16; ++i)
-        {
-            const ivec2 at = 4 * cell + ivec2(i & 3, i >> 2);
-            parts[i] = all(lessThan(at, size)) ? texelFetch(levels[k], at, 0).r : 0.0;
-        }
-        choose(parts, number, chance, cell);
-    }
+    DESCEND(5) DESCEND(4) DESCEND(3) DESCEND(2) DESCEND(1) DESCEND(0)
     for (int i = 0; i < 16; ++i)
         parts[i] = importance(4 * cell + ivec2(i & 3, i >> 2));
     choose(parts, number, chance, cell);

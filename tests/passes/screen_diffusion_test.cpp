@@ -228,7 +228,9 @@ TEST_F(ChangInPicture, GathersWhatTheDipoleBringsFromNearby)
                 left_mean += light(y, left)[c] / side;
                 right_mean += light(y, left + 1)[c] / side;
             }
-            EXPECT_NEAR(std::lerp(left_mean, right_mean, place - left), expected, .03)
+            // Of the 64 points around a pixel each carries up to .016 of the light, and two can miss the
+            // edge.
+            EXPECT_NEAR(std::lerp(left_mean, right_mean, place - left), expected, .035)
                 << x_mm << " mm, " << c;
         }
     }
