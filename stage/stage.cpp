@@ -295,10 +295,14 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
     const head::Camera camera = request.camera.value_or(set_.loaded.camera());
     std::optional<double> diffusion_scale;
     if (spread && received) {
-        // Kept light stands while the camera moves.
-        const double pixel_m = request.light_scale
-                                   ? spread->texel_m / (2 * *request.light_scale)
-                                   : passes::pixel_m(set_.wounded->boxes, camera, request.tile.picture[1]);
+        // The scene's camera decides for all that are not much nearer: light stands while a camera moves.
+        const auto pixel_of = [&](const head::Camera& viewer) {
+            return std::max(passes::pixel_m(set_.wounded->boxes, viewer, request.tile.picture[1]), 1e-6);
+        };
+        double pixel_m = request.light_scale ? spread->texel_m / (2 * *request.light_scale)
+                                             : pixel_of(set_.loaded.camera());
+        while (!request.light_scale && pixel_of(camera) < pixel_m / 2)
+            pixel_m /= 2;
         diffusion_scale = passes::diffusion_scale(*spread, tissue.scattering_length_mm, pixel_m);
     }
     frame.images = passes::add_frame(graph, {.head = *set_.wounded,

@@ -30,7 +30,7 @@ struct SurfaceDraw
     vec2 low, high; // texels, of the tile; nothing is drawn outside
 };
 
-CONSTANT BACKDROP_BANDS = 64;
+CONSTANT BACKDROP_BANDS = 12;
 
 CONSTANT DIFFUSION_TAPS = 64;
 CONSTANT DIFFUSION_REACH = 32; // texels along each side; taps farther away are left out
