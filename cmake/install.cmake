@@ -44,17 +44,17 @@ License: Expat
 add_custom_command(
     OUTPUT ${documents}/changelog.gz
     COMMAND ${CMAKE_COMMAND} -E make_directory ${documents}
-    COMMAND gzip -9 -n -c ${CMAKE_SOURCE_DIR}/packaging/changelog > ${documents}/changelog.gz
-    DEPENDS ${CMAKE_SOURCE_DIR}/packaging/changelog
+    COMMAND gzip -9 -n -c ${CMAKE_SOURCE_DIR}/cmake/packaging/changelog > ${documents}/changelog.gz
+    DEPENDS ${CMAKE_SOURCE_DIR}/cmake/packaging/changelog
     VERBATIM)
 add_custom_target(documents ALL DEPENDS ${document_files} ${documents}/changelog.gz)
 
 install(TARGETS cicatrix cicatrix-head RUNTIME)
 install(PROGRAMS tools/head/cicatrix-fetch-head TYPE BIN)
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/cicatrix)
-install(FILES packaging/cicatrix.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
-install(FILES packaging/localhost.cicatrix.cicatrix.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
-install(FILES packaging/cicatrix.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
+install(FILES cmake/packaging/cicatrix.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
+install(FILES cmake/packaging/localhost.cicatrix.cicatrix.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
+install(FILES cmake/packaging/cicatrix.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff ${documents}/copyright ${documents}/changelog.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "base/last.hpp"
 #include "head/vectors.hpp"
 #include "passes/skin_light.hpp"
 #include "wound/optics/dipole.hpp"
@@ -22,6 +23,34 @@ std::array<optics::Dipole, 3> dipoles(const optics::TissueSpread& tissue)
         return inversion.dipole_of(tissue.width_mm[c] / length, length);
     };
     return {of(0), of(1), of(2)};
+}
+
+/// What of the view the tissue decides; costs milliseconds.
+shared::ChangView view_of_tissue(const optics::TissueSpread& tissue)
+{
+    shared::ChangView view{};
+    const std::array<optics::Dipole, 3> dipole = dipoles(tissue);
+    double local = 0;
+    for (const optics::Dipole& channel : dipole) {
+        double radius = 0;
+        while (channel.within(radius) < local_light * channel.total())
+            radius += .01;
+        local = std::max(local, radius);
+    }
+    view.local_mm = float(local);
+    for (int c = 0; c < 3; ++c) {
+        const optics::DipoleSources& sources = dipole[std::size_t(c)].sources;
+        view.dipole.transport[c] = float(sources.transport);
+        view.dipole.depth[c] = float(sources.depth);
+        view.dipole.image[c] = float(sources.image);
+        view.dipole.per_total[c] = float(1 / sources.total());
+        view.local_share[c] = float(sources.within(local) / sources.total());
+    }
+    const auto& taps = optics::diffusion_taps();
+    const double reach = std::hypot(taps.back()[0], taps.back()[1]);
+    for (std::size_t k = 0; k < taps.size(); ++k)
+        view.taps[k] = {taps[k][0] / reach, taps[k][1] / reach, taps[k][2], 0};
+    return view;
 }
 
 /// Where the skin is at home on an atlas of this size.
@@ -82,34 +111,14 @@ SkinSamples add_skin_samples(graph::Graph& graph, const ForwardInput& input, con
 shared::ChangView chang_view(const head::Camera& camera, const ViewportTile& tile,
                              const optics::TissueSpread& tissue)
 {
+    thread_local base::Last<optics::TissueSpread, shared::ChangView> known;
+    shared::ChangView view = known.of(tissue, view_of_tissue);
     const glm::dmat3 rows = glm::transpose(glm::dmat3(head::view_from_world(camera)));
-    shared::ChangView view{
-        .eye = 1e3 * camera.eye,
-        .right = rows[0],
-        .down = -rows[1],
-        .forward = -rows[2],
-        .centre = glm::vec2(.5 * tile.picture[0] - tile.corner[0], .5 * tile.picture[1] - tile.corner[1])};
-    const std::array<optics::Dipole, 3> dipole = dipoles(tissue);
-    double local = 0;
-    for (const optics::Dipole& channel : dipole) {
-        double radius = 0;
-        while (channel.within(radius) < local_light * channel.total())
-            radius += .01;
-        local = std::max(local, radius);
-    }
-    view.local_mm = float(local);
-    for (int c = 0; c < 3; ++c) {
-        const optics::DipoleSources& sources = dipole[std::size_t(c)].sources;
-        view.dipole.transport[c] = float(sources.transport);
-        view.dipole.depth[c] = float(sources.depth);
-        view.dipole.image[c] = float(sources.image);
-        view.dipole.per_total[c] = float(1 / sources.total());
-        view.local_share[c] = float(sources.within(local) / sources.total());
-    }
-    const auto taps = optics::diffusion_taps();
-    const double reach = std::hypot(taps.back()[0], taps.back()[1]);
-    for (std::size_t k = 0; k < taps.size(); ++k)
-        view.taps[k] = {taps[k][0] / reach, taps[k][1] / reach, taps[k][2], 0};
+    view.eye = 1e3 * camera.eye;
+    view.right = rows[0];
+    view.down = -rows[1];
+    view.forward = -rows[2];
+    view.centre = glm::vec2(.5 * tile.picture[0] - tile.corner[0], .5 * tile.picture[1] - tile.corner[1]);
     return view;
 }
 

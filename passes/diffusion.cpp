@@ -12,15 +12,6 @@ namespace {
 constexpr double narrow_texels = 2; // of a skirt, for filters
 constexpr double wide_texels = 16;  // for light that spreads: as far as the taps go where a texel is as wide
 
-shared::Diffusion diffusion_params(const optics::Shading& shading, const base::Color& scattering_length_mm)
-{
-    shared::Diffusion params{.scattering_mm = head::to_glm(shading.rho_d * scattering_length_mm)};
-    static const auto taps = optics::diffusion_taps();
-    for (std::size_t k = 0; k < taps.size(); ++k)
-        params.taps[k] = {head::to_glm(taps[k]), 0};
-    return params;
-}
-
 /// Draws the skin's surface: first the wide skirts, then the narrow ones, which filters at the border of
 /// their chart need, then the skin. All of one kind before the next, as charts of other tiles may be near.
 void draw_surface(graph::RasterPass& pass, std::string_view shader, const Skin& skin, double scale)
@@ -46,12 +37,21 @@ void draw_surface(graph::RasterPass& pass, std::string_view shader, const Skin& 
 
 } // namespace
 
+shared::Diffusion diffusion_params(const base::Color& scattering_mm)
+{
+    shared::Diffusion params{.scattering_mm = head::to_glm(scattering_mm)};
+    const auto& taps = optics::diffusion_taps();
+    for (std::size_t k = 0; k < taps.size(); ++k)
+        params.taps[k] = {head::to_glm(taps[k]), 0};
+    return params;
+}
+
 DiffusedLight add_diffusion(graph::Graph& graph, const ForwardInput& input, const Skin& skin, double scale,
                             const optics::Shading& shading)
 {
     const SkinLight received = add_received_light(graph, input, skin, scale, shading);
     const glm::uvec2 size(glm::dvec2(skin.size) * scale);
-    const shared::Diffusion params = diffusion_params(shading, input.scattering_length_mm);
+    const shared::Diffusion params = diffusion_params(shading.rho_d * input.scattering_length_mm);
     const double widest_mm =
         std::max({params.scattering_mm.x, params.scattering_mm.y, params.scattering_mm.z});
     DiffusedLight around{

@@ -20,4 +20,7 @@ struct DiffusedLight
 DiffusedLight add_diffusion(graph::Graph& graph, const ForwardInput& input, const Skin& skin, double scale,
                             const optics::Shading& shading);
 
+/// `scattering_mm`: shared::Diffusion::scattering_mm.
+shared::Diffusion diffusion_params(const base::Color& scattering_mm);
+
 } // namespace passes

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/last.hpp"
 #include "head/vectors.hpp"
+#include "passes/diffusion.hpp"
 #include "passes/skin.hpp"
 #include "shaders/shared/skin.h"
 #include "wound/optics/separable.hpp"
@@ -20,26 +22,21 @@ double pixels_at_1m(const head::Camera& camera, std::uint32_t picture_height)
 /// Widths of the profile, to the outermost sample of either transport.
 double farthest_tap()
 {
-    const auto taps = optics::diffusion_taps();
+    const auto& taps = optics::diffusion_taps();
     return std::max(double(shared::SEPARABLE_REACH), std::hypot(taps.back()[0], taps.back()[1]));
 }
 
-shared::Diffusion disc(const optics::TissueSpread& tissue)
+/// Of a tissue; costs milliseconds, so it is kept.
+const shared::SeparableKernel& kernel(const optics::TissueSpread& tissue)
 {
-    shared::Diffusion params{.scattering_mm = head::to_glm(tissue.scattering_length_mm)};
-    const auto taps = optics::diffusion_taps();
-    for (std::size_t k = 0; k < taps.size(); ++k)
-        params.taps[k] = {head::to_glm(taps[k]), 0};
-    return params;
-}
-
-shared::SeparableKernel kernel(const optics::TissueSpread& tissue)
-{
-    shared::SeparableKernel result{};
-    const auto taps = optics::separable_kernel(tissue.width_mm);
-    for (std::size_t k = 0; k < taps.size(); ++k)
-        result.taps[k] = {head::to_glm(taps[k].weight), float(taps[k].place)};
-    return result;
+    thread_local base::Last<optics::TissueSpread, shared::SeparableKernel> known;
+    return known.of(tissue, [](const optics::TissueSpread& of) {
+        shared::SeparableKernel result{};
+        const auto taps = optics::separable_kernel(of.width_mm);
+        for (std::size_t k = 0; k < taps.size(); ++k)
+            result.taps[k] = {head::to_glm(taps[k].weight), float(taps[k].place)};
+        return result;
+    });
 }
 
 } // namespace
@@ -97,7 +94,7 @@ graph::ImageId add_screen_diffusion(graph::Graph& graph, const ForwardImages& dr
     };
     if (diffusion.transport != optics::Transport::Separable) {
         const auto [pass, spread] = add("burley", "burley.comp", apart.received, "radiance");
-        pass.uniform("Diffusion_", disc(diffusion.tissue));
+        pass.uniform("Diffusion_", diffusion_params(diffusion.tissue.scattering_length_mm));
         return spread;
     }
     const auto [along_x, once] = add("separable x", "separable.comp", apart.received, "spread along x");

@@ -301,7 +301,8 @@ Frame Stage::declare(graph::Graph& graph, const FrameRequest& request) const
         };
         double pixel_m = request.light_scale ? spread->texel_m / (2 * *request.light_scale)
                                              : pixel_of(set_.loaded.camera());
-        while (!request.light_scale && pixel_of(camera) < pixel_m / 2)
+        const double nearer_m = request.light_scale ? pixel_m : pixel_of(camera);
+        while (nearer_m < pixel_m / 2)
             pixel_m /= 2;
         diffusion_scale = passes::diffusion_scale(*spread, tissue.scattering_length_mm, pixel_m);
     }

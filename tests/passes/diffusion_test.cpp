@@ -6,7 +6,9 @@
 
 #include "engine/gpu/texture.hpp"
 #include "head/vectors.hpp"
+#include "passes/diffusion.hpp"
 #include "shaders/shared/skin.h"
+#include "slab_edge.hpp"
 #include "tests/support/gpu.hpp"
 #include "wound/optics/transport.hpp"
 
@@ -59,11 +61,7 @@ cv::Mat4f spread(const Plane& plane, const cv::Vec3d& width_mm)
     pass.sample("gathered", graph.import("light", lights), graph::Sampler::NearestClamp);
     pass.sample("skin_albedo", graph.import("albedo", albedo));
     pass.store("diffused", diffused);
-    shared::Diffusion params{.scattering_mm = head::to_glm(width_mm)};
-    const auto taps = optics::diffusion_taps();
-    for (std::size_t k = 0; k < taps.size(); ++k)
-        params.taps[k] = {head::to_glm(taps[k]), 0};
-    pass.uniform("Diffusion_", params);
+    pass.uniform("Diffusion_", passes::diffusion_params(width_mm));
     pass.dispatch(side, side);
     const graph::ReadbackId back = graph.readback("diffused", diffused);
     gpu::Executor executor(device, gpu_test::shaders());
@@ -80,17 +78,6 @@ cv::Mat4f spread(const Plane& plane, const cv::Vec3d& width_mm)
 
 using Diffusion = gpu_test::Test;
 
-// Share of full brightness in the dark, by two programs that walk photons through a slab.
-struct Edge
-{
-    double x_mm;
-    std::array<double, 3> share;
-};
-constexpr Edge edges[] = {{.1, {.395, .343, .285}},
-                          {.5, {.222, .137, .074}},
-                          {1, {.126, .054, .019}},
-                          {2, {.048, .011, .0016}},
-                          {3, {.020, .0024, .0002}}};
 const cv::Vec3d widths_mm(.485, .264, .159); // of Burley's profile for that slab
 
 void expect_edge(const Plane& plane)
@@ -106,7 +93,7 @@ void expect_edge(const Plane& plane)
             dark.emplace_back(distance, shown(side / 2, x));
     }
     std::ranges::sort(dark, {}, &std::pair<double, cv::Vec4f>::first);
-    for (const Edge& edge : edges)
+    for (const SlabEdge& edge : slab_edges)
         for (int c = 0; c < 3; ++c) {
             const auto beyond =
                 std::ranges::lower_bound(dark, edge.x_mm, {}, &std::pair<double, cv::Vec4f>::first);

@@ -9,6 +9,7 @@
 
 #include "engine/gpu/texture.hpp"
 #include "passes/chang.hpp"
+#include "slab_edge.hpp"
 #include "tests/support/gpu.hpp"
 #include "wound/optics/dipole.hpp"
 #include "wound/optics/separable.hpp"
@@ -117,25 +118,13 @@ INSTANTIATE_TEST_SUITE_P(Transports, InPicture,
                              return optics::transport_names[std::size_t(tested.param)];
                          });
 
-// Share of full brightness in the dark, by two programs that walk photons through a slab.
-struct Edge
-{
-    double x_mm;
-    std::array<double, 3> share;
-};
-constexpr Edge edges[] = {{.1, {.395, .343, .285}},
-                          {.5, {.222, .137, .074}},
-                          {1, {.126, .054, .019}},
-                          {2, {.048, .011, .0016}},
-                          {3, {.020, .0024, .0002}}};
-
 TEST_P(InPicture, BrightensTheDarkAsASlabDoes)
 {
     constexpr double pixels_per_mm = 20;
     const cv::Mat4f light = shown(half_lit(), GetParam(), pixels_per_mm);
     // At a tap's place the separable kernel jumps: its taps are up to a width apart.
     const double bar = GetParam() == optics::Transport::Separable ? .045 : .02;
-    for (const Edge& edge : edges) {
+    for (const SlabEdge& edge : slab_edges) {
         const double place = side / 2. - .5 - edge.x_mm * pixels_per_mm;
         const int left = int(std::floor(place));
         for (int c = 0; c < 3; ++c) {

@@ -47,8 +47,8 @@ done
 [ "$links" -gt 50 ] || wrong "only $links links were found: this test does not look at them"
 
 version=$(sed -n 's/^project(cicatrix VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
-metainfo=packaging/localhost.cicatrix.cicatrix.metainfo.xml
-for place in "CITATION.cff:^version: $version\$" "CHANGELOG.md:^## $version\$" "packaging/changelog:^cicatrix ($version) " \
+metainfo=cmake/packaging/localhost.cicatrix.cicatrix.metainfo.xml
+for place in "CITATION.cff:^version: $version\$" "CHANGELOG.md:^## $version\$" "cmake/packaging/changelog:^cicatrix ($version) " \
     "$metainfo:<release version=\"$version\""; do
     grep -q "${place#*:}" "${place%%:*}" || wrong "${place%%:*} does not name version $version"
 done

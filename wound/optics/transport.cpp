@@ -123,18 +123,21 @@ double left_within(double radius, double width)
     return 1 - t * (t * t + 3) / 4;
 }
 
-std::array<cv::Vec3d, shared::DIFFUSION_TAPS> diffusion_taps()
+const std::array<cv::Vec3d, shared::DIFFUSION_TAPS>& diffusion_taps()
 {
-    std::array<cv::Vec3d, shared::DIFFUSION_TAPS> taps;
-    const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
-    for (std::size_t k = 0; k < taps.size(); ++k) {
-        // t = e^(-r/3) solves (t^3 + 3 t) / 4 = share beyond r.
-        const double beyond = 1 - (double(k) + 0.5) / double(taps.size());
-        const double root = std::cbrt(2 * beyond + std::sqrt(4 * beyond * beyond + 1));
-        const double t = root - 1 / root, radius = -3 * std::log(t), angle = golden_angle * double(k);
-        taps[k] = {radius * std::cos(angle), radius * std::sin(angle), radius / (t * t * t + t)};
-    }
-    return taps;
+    static const auto known = [] {
+        std::array<cv::Vec3d, shared::DIFFUSION_TAPS> taps;
+        const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
+        for (std::size_t k = 0; k < taps.size(); ++k) {
+            // t = e^(-r/3) solves (t^3 + 3 t) / 4 = share beyond r.
+            const double beyond = 1 - (double(k) + 0.5) / double(taps.size());
+            const double root = std::cbrt(2 * beyond + std::sqrt(4 * beyond * beyond + 1));
+            const double t = root - 1 / root, radius = -3 * std::log(t), angle = golden_angle * double(k);
+            taps[k] = {radius * std::cos(angle), radius * std::sin(angle), radius / (t * t * t + t)};
+        }
+        return taps;
+    }();
+    return known;
 }
 
 double received_bent(double cosine, double turn)

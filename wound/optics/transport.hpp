@@ -49,6 +49,7 @@ base::Color scattering_length_mm(const SkinLayers& tissue);
 struct TissueSpread
 {
     base::Color scattering_length_mm{0, 0, 0}, width_mm{0, 0, 0};
+    bool operator==(const TissueSpread&) const = default;
 };
 TissueSpread tissue_spread(const SkinLayers& tissue);
 
@@ -60,7 +61,7 @@ double left_within(double radius, double width);
 
 /// Points around the origin, in widths of the profile: x, y, and radius / (e^-radius + e^(-radius/3)), the
 /// weight with which a profile is integrated over them. Their radii cut the light into equal shares.
-std::array<cv::Vec3d, shared::DIFFUSION_TAPS> diffusion_taps();
+const std::array<cv::Vec3d, shared::DIFFUSION_TAPS>& diffusion_taps();
 
 /// Light that a ball returns where its normal and the direction of the light enclose this cosine, over
 /// bend_gain() and what a plane that faces the light returns. `turn`: width / radius, radians; above .25 it
